@@ -1,0 +1,148 @@
+"""`@node`: a plain typed function becomes an operator.
+
+The signature is the declaration, so nothing is written twice. Positional arguments are input ports, keyword-only
+arguments are parameters that pydantic validates, the return annotation is the output. The decorator hands the function
+back untouched: a notebook or a test calls it without the engine.
+
+    @node("intrinsic.intensity")
+    def intensity(photo: Image, *, floor: Annotated[float, Field(gt=0, le=0.1)] = 1 / 255) -> Intrinsic: ...
+
+Annotations are resolved and the parameter model is built when an operator is first used, not when its module is
+imported: listing names must not pay for pydantic.
+"""
+
+from __future__ import annotations
+
+import inspect
+import typing
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from graphface.values import PortType, is_lazy, output_fields, port_type
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+Needs = Mapping[str, bool | str]
+"""A `needs` rule's answer: for each lazy port, True where it is wanted, or the reason why not."""
+
+
+class Cosmetic:
+    """Put into a parameter's `Annotated` where it cannot change the result (a label, a thread count): no key has it."""
+
+
+def node(name: str, *, version: int = 1, needs: Callable[..., Needs] | None = None) -> Callable[[F], F]:
+    """Declare a function as the operator `name` ("family.method").
+
+    Args:
+        name: dotted name; operators with the same prefix and agreeing ports are interchangeable.
+        version: raise it to invalidate memoized results where the change is not in the code (a data file, say).
+        needs: for functions with `Lazy` ports. Called with those of the eager inputs and parameters that it names;
+            returns for each lazy port True, or a sentence saying why it is not wanted.
+    """
+
+    def declare(function: F) -> F:
+        function.__graphface_operator__ = Operator(name, function, version, needs)  # type: ignore[attr-defined]
+        return function
+
+    return declare
+
+
+@dataclass(frozen=True)
+class InputPort:
+    name: str
+    type: PortType
+    required: bool
+    lazy: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Operator:
+    """A declared function and what its signature says; see `node`."""
+
+    name: str
+    function: Callable[..., Any]
+    version: int = 1
+    needs: Callable[..., Needs] | None = None
+
+    def __repr__(self) -> str:
+        return f"Operator({self.name!r})"
+
+    @property
+    def doc(self) -> str:
+        return inspect.getdoc(self.function) or ""
+
+    @property
+    def family(self) -> str:
+        return self.name.rpartition(".")[0]
+
+    @cached_property
+    def inputs(self) -> dict[str, InputPort]:
+        """The input ports, in the order of the signature."""
+        ports = {}
+        for argument in self._signature.parameters.values():
+            if argument.kind is not argument.POSITIONAL_OR_KEYWORD:
+                continue
+            annotation = self._hints[argument.name]
+            declared, lazy = port_type(annotation), is_lazy(annotation)
+            required = argument.default is argument.empty and not declared.optional
+            ports[argument.name] = InputPort(argument.name, declared, required, lazy)
+        return ports
+
+    @cached_property
+    def output(self) -> PortType:
+        return port_type(self._hints["return"])
+
+    @cached_property
+    def outputs(self) -> dict[str, PortType]:
+        """The fields of a dataclass output: the ports reached as `node.field`."""
+        return output_fields(self._hints["return"])
+
+    @property
+    def output_annotation(self) -> Any:
+        return self._hints["return"]
+
+    @cached_property
+    def parameters(self) -> type[BaseModel]:
+        """The pydantic model of the keyword-only arguments; unknown names are refused."""
+        from pydantic import ConfigDict, create_model
+
+        fields: dict[str, Any] = {}
+        for argument in self._signature.parameters.values():
+            if argument.kind is argument.KEYWORD_ONLY:
+                default = ... if argument.default is argument.empty else argument.default
+                fields[argument.name] = (self._hints[argument.name], default)
+        config = ConfigDict(extra="forbid", validate_default=True, allow_inf_nan=False)
+        return create_model(f"{self.name} parameters", __config__=config, **fields)
+
+    @cached_property
+    def cosmetic(self) -> frozenset[str]:
+        """The parameters that no key has."""
+        marked = (name for name, hint in self._hints.items() if Cosmetic in getattr(hint, "__metadata__", ()))
+        return frozenset(marked)
+
+    @cached_property
+    def rule_arguments(self) -> tuple[str, ...]:
+        """The inputs and parameters that the `needs` rule asks to see."""
+        return () if self.needs is None else tuple(inspect.signature(self.needs).parameters)
+
+    @cached_property
+    def _signature(self) -> inspect.Signature:
+        return inspect.signature(self.function)
+
+    @cached_property
+    def _hints(self) -> dict[str, Any]:
+        hints = typing.get_type_hints(self.function, include_extras=True)
+        missing = [n for n in (*self._signature.parameters, "return") if n not in hints]
+        if missing:
+            raise TypeError(f"operator {self.name!r}: no annotation for {', '.join(missing)}")
+        return hints
+
+
+def operator_of(function: object) -> Operator | None:
+    """The operator that `@node` declared on a function, if it did."""
+    return getattr(function, "__graphface_operator__", None)

@@ -1,0 +1,1 @@
+"""Graph and scene files. YAML only: no logic lives here."""

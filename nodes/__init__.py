@@ -1,0 +1,46 @@
+"""The face operators: one plug-in among others, found through the `graphface.nodes` entry-point group.
+
+`pack` says which module declares which family, so that using one method imports one module.
+"""
+
+from graphface import Pack
+
+_TYPES = "graphface.nodes.types"
+
+pack = Pack(
+    name="graphface",
+    operators={
+        "image": "graphface.nodes.image",
+        "landmarks": "graphface.nodes.landmarks.facemesh",
+        "geometry": "graphface.nodes.morphable.facemesh",
+        "surface": "graphface.nodes.render.surface",
+        "masks": "graphface.nodes.masks.face",
+        "intrinsic": "graphface.nodes.intrinsic.intensity",
+        "sh": "graphface.nodes.sh",
+        "detail": "graphface.nodes.detail",
+        "render": "graphface.nodes.render.shade graphface.nodes.render.spread",
+        "blend": "graphface.nodes.blend",
+    },
+    types={
+        **{
+            name: f"{_TYPES}:{name}"
+            for name in (
+                "Albedo",
+                "Camera",
+                "Depth",
+                "Detail",
+                "Image",
+                "Intrinsic",
+                "Landmarks",
+                "Lighting",
+                "LightingFit",
+                "Mask",
+                "Mesh",
+                "Normals",
+                "Shading",
+                "Surface",
+            )
+        },
+        "Scene": "graphface.nodes.render.scene:Scene",
+    },
+)
