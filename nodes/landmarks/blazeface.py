@@ -1,0 +1,138 @@
+"""BlazeFace: faces and six points on each, from one look at a picture.
+
+Bazarevsky et al., BlazeFace: Sub-millisecond Neural Face Detection on Mobile GPUs, CVPR Workshops 2019. The network
+answers for a fixed grid of anchors, each with a logit, a box and six points relative to the anchor's centre.
+Overlapping answers are merged by their scores (the paper's tie resolution) rather than suppressed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Literal
+
+import cv2
+import numpy as np
+
+from graphface.assets import Asset
+from graphface.nodes.landmarks.network import run_network, sigmoid
+from graphface.nodes.landmarks.weights import BLAZEFACE, BLAZEFACE_FULL_RANGE
+from graphface.nodes.types import FloatArray
+
+Range = Literal["near", "far"]
+
+MERGE_OVERLAP = 0.3
+"""Answers whose boxes overlap more than this (intersection over union) are one face."""
+
+
+@dataclass(frozen=True)
+class Face:
+    """A detected face, in pixels of the picture it was searched in.
+
+    `box` float32 (4,): left, top, right, bottom. `points` float32 (6, 2): right eye, left eye (the person's, so right
+    is on the left of the picture), nose tip, mouth, right ear, left ear. `score` 0..1.
+    """
+
+    box: FloatArray
+    points: FloatArray
+    score: float
+
+    @property
+    def size(self) -> float:
+        """The longer side of the box."""
+        return float(max(self.box[2] - self.box[0], self.box[3] - self.box[1]))
+
+    def moved(self, matrix: FloatArray) -> Face:
+        """The face after a similarity, (2, 3), of the plane; the box is the upright one about the moved corners."""
+        left, top, right, bottom = self.box
+        corners = np.array([[left, top], [right, top], [right, bottom], [left, bottom]], np.float32)
+        corners = corners @ matrix[:, :2].T + matrix[:, 2]
+        box = np.concatenate([corners.min(axis=0), corners.max(axis=0)]).astype(np.float32)
+        points = (self.points @ matrix[:, :2].T + matrix[:, 2]).astype(np.float32)
+        return replace(self, box=box, points=points)
+
+
+@dataclass(frozen=True)
+class _Model:
+    asset: Asset
+    side: int
+    grids: tuple[tuple[int, int], ...]
+    """Cells along a side, and anchors in each cell."""
+    scores: str
+    boxes: str
+
+
+_MODELS: dict[Range, _Model] = {
+    "near": _Model(BLAZEFACE, 256, ((16, 2), (8, 6)), "classificators", "regressors"),
+    "far": _Model(BLAZEFACE_FULL_RANGE, 192, ((48, 1),), "reshaped_classifier_face_4", "reshaped_regressor_face_4"),
+}
+
+
+def detect(pixels: FloatArray, *, model: Range = "near", min_score: float = 0.5) -> list[Face]:
+    """All faces in `pixels` (float32 H x W x 3, sRGB, 0..1), the largest first.
+
+    The picture is shrunk or enlarged to fit the network's square; what the square has beyond it is black.
+    """
+    network = _MODELS[model]
+    square, matrix = _letterbox(pixels, network.side)
+    outputs = run_network(network.asset, square * 2 - 1)
+    scores = sigmoid(outputs[network.scores].reshape(-1))
+    chosen = np.flatnonzero(scores >= min_score)
+    raw = outputs[network.boxes].reshape(-1, 8, 2)[chosen] / network.side
+    anchors = _anchors(network.grids)[chosen]
+    centers = (raw[:, 0] + anchors) * network.side
+    half = np.maximum(raw[:, 1], 0) * network.side / 2
+    points = (raw[:, 2:] + anchors[:, None]) * network.side
+    boxes = np.concatenate([centers - half, centers + half], axis=1)
+    faces = [face.moved(matrix) for face in _merge(boxes, points, scores[chosen])]
+    return sorted((f for f in faces if f.size > 0), key=lambda f: -f.size)
+
+
+def _letterbox(pixels: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
+    """The picture centred in a square, and the (2, 3) matrix from the square's continuous coordinates (0..side from
+    edge to edge) back to the picture's pixel centres."""
+    height, width = pixels.shape[:2]
+    scale = side / max(height, width)
+    size = (max(1, round(width * scale)), max(1, round(height * scale)))
+    small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
+    left, top = (side - size[0]) // 2, (side - size[1]) // 2
+    square = np.zeros((side, side, 3), np.float32)
+    square[top : top + size[1], left : left + size[0]] = small
+    back_x, back_y = width / size[0], height / size[1]
+    matrix = np.array([[back_x, 0, -left * back_x - 0.5], [0, back_y, -top * back_y - 0.5]], np.float32)
+    return square, matrix
+
+
+@cache
+def _anchors(grids: tuple[tuple[int, int], ...]) -> FloatArray:
+    """Cell centres in 0..1, (n, 2), row by row, each as often as its cell has anchors."""
+    levels = []
+    for cells, repeats in grids:
+        y, x = np.mgrid[:cells, :cells]
+        centers = (np.stack([x, y], axis=-1).reshape(-1, 2) + 0.5) / cells
+        levels.append(np.repeat(centers, repeats, axis=0))
+    return np.concatenate(levels).astype(np.float32)
+
+
+def _merge(boxes: FloatArray, points: FloatArray, scores: FloatArray) -> list[Face]:
+    """Groups of overlapping answers, best first, each replaced by its mean weighted with the scores."""
+    left = list(np.argsort(-scores, kind="stable"))
+    faces = []
+    while left:
+        best = left[0]
+        overlap = _overlap(boxes[best], boxes[left])
+        group = [i for i, o in zip(left, overlap, strict=True) if o > MERGE_OVERLAP or i == best]
+        weights = scores[group] / max(float(scores[group].sum()), 1e-9)
+        box = np.tensordot(weights, boxes[group], axes=1)
+        faces.append(Face(box, np.tensordot(weights, points[group], axes=1), float(scores[best])))
+        left = [i for i in left if i not in set(group)]
+    return faces
+
+
+def _overlap(box: FloatArray, boxes: FloatArray) -> FloatArray:
+    """Intersection over union of one box (4,) with each of (n, 4)."""
+    low, high = np.maximum(box[:2], boxes[:, :2]), np.minimum(box[2:], boxes[:, 2:])
+    common = np.prod(np.maximum(high - low, 0), axis=1)
+    areas = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
+    union = np.prod(box[2:] - box[:2]) + areas - common
+    return np.asarray(common / np.maximum(union, 1e-9), dtype=np.float32)
