@@ -1,0 +1,164 @@
+"""Draw a mesh into the picture's pixels: which triangle each pixel sees, and where in it.
+
+`cv2.triangleRasterize` decides visibility in C++; flat colours carry the triangle's number out of it. Everything else is
+then computed exactly from that number: barycentric coordinates are affine in the pixel's position, so there is one
+small matrix per triangle and no interpolation error from the rasterizer's own arithmetic.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface import node, warn
+from graphface.nodes.types import Image, Mesh, Surface
+
+_VIEW_ANGLE = 0.1
+"""Field of view handed to OpenCV, radians; vertices are moved beforehand so that any value gives the same picture."""
+
+
+@node("surface.rasterize")
+def rasterize(mesh: Mesh, photo: Image, *, area_floor: float = 1e-9) -> Surface:
+    """The part of a mesh that the camera sees, as maps of the photo's size.
+
+    Args:
+        mesh: triangles counter-clockwise seen from outside; those that turn away from the camera are not drawn.
+        photo: gives the size, H x W; its pixels are not read.
+        area_floor: triangles smaller than this, in square pixels, are left out.
+
+    Returns:
+        `normals` unit float32 H x W x 3, interpolated between the vertices' normals; `depth` float32 H x W, the camera
+        frame's z; `coverage` float32 H x W, 1 where a pixel's centre lies on the mesh; `triangle` int32 H x W and
+        `barycentric` float32 H x W x 3, of the point seen (perspective-correct). Uncovered pixels are 0 (-1 in `triangle`).
+    """
+    height, width = photo.height, photo.width
+    surface = _nothing_seen(height, width)
+    pixels = mesh.camera.project(mesh.vertices.astype(np.float64))
+    corners = pixels[mesh.triangles]  # T x 3 x 2
+    area = _signed_area(corners)
+    usable = np.isfinite(corners).all(axis=(1, 2)) & (area > max(area_floor, np.finfo(np.float64).tiny))
+    box = _bounding_box(corners[usable], height, width)
+    if box is None:
+        warn("the mesh covers no pixel of the photo: normals, depth and coverage are empty")
+        return surface
+    x0, y0, x1, y1 = box
+
+    drawn = np.flatnonzero(usable)
+    z = mesh.vertices[mesh.triangles[drawn], 2]
+    seen = _visible_triangles(corners[drawn] - (x0, y0), z, y1 - y0, x1 - x0)
+    if not (seen >= 0).any():
+        warn("the mesh falls between the pixels: normals, depth and coverage are empty")
+        return surface
+    triangles = mesh.triangles[drawn]
+    barycentric = _barycentric(corners[drawn] - (x0, y0), area[drawn], seen)
+    if mesh.camera.nearness != 0:
+        # Equal steps in the picture are unequal steps on a tilted triangle: weigh each corner by one over its distance.
+        barycentric /= _of_pixel(np.maximum(1 - z * mesh.camera.nearness, 1e-3), seen, beyond=1)
+        barycentric /= np.maximum(_sum_of_channels(barycentric), 1e-12)
+
+    window = np.s_[y0:y1, x0:x1]
+    normals = sum(barycentric[..., k, None] * _of_pixel(mesh.normals[triangles[:, k]], seen) for k in range(3))
+    length = np.sqrt(_sum_of_channels(np.square(normals)))
+    surface.normals[window] = normals / np.maximum(length, 1e-6)
+    surface.depth[window] = np.einsum("hwk,hwk->hw", barycentric, _of_pixel(z, seen))
+    surface.coverage[window] = seen >= 0
+    surface.triangle[window] = _of_pixel(drawn.astype(np.int32), seen, beyond=-1)
+    surface.barycentric[window] = barycentric
+    return surface
+
+
+def _nothing_seen(height: int, width: int) -> Surface:
+    return Surface(
+        normals=np.zeros((height, width, 3), np.float32),
+        depth=np.zeros((height, width), np.float32),
+        coverage=np.zeros((height, width), np.float32),
+        triangle=np.full((height, width), -1, np.int32),
+        barycentric=np.zeros((height, width, 3), np.float32),
+    )
+
+
+def _signed_area(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Twice the area of each triangle (T x 3 x 2) in the picture, positive where it faces the camera."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    twice: NDArray[np.float64] = a[:, 1] * b[:, 0] - a[:, 0] * b[:, 1]  # y points down in the picture
+    return twice
+
+
+def _bounding_box(corners: NDArray[np.float64], height: int, width: int) -> tuple[int, int, int, int] | None:
+    """The pixels x0 <= x < x1, y0 <= y < y1 that the triangles may touch, or None where there are none."""
+    if corners.size == 0:
+        return None
+    frame = np.array([width, height])
+    low = np.clip(np.floor(corners.min(axis=(0, 1))), 0, frame).astype(int)
+    high = np.clip(np.ceil(corners.max(axis=(0, 1))) + 1, 0, frame).astype(int)
+    return None if (high <= low).any() else (int(low[0]), int(low[1]), int(high[0]), int(high[1]))
+
+
+def _visible_triangles(
+    corners: NDArray[np.float64], z: NDArray[np.floating[Any]], height: int, width: int
+) -> NDArray[np.int32]:
+    """Number of the nearest triangle at each pixel of a height x width window, -1 where there is none.
+
+    OpenCV only knows a perspective camera at the origin looking along -z, with the window's corners at +-0.5 pixel beyond
+    the outermost centres. Putting each vertex at its own distance d - z and scaling its x and y by that distance over d
+    lands it on the wanted pixel exactly.
+    """
+    import cv2
+
+    reach = max(float(np.ptp(z)), 1.0)
+    middle = float(z.min() + z.max()) / 2
+    distance = max(height / 2 / np.tan(_VIEW_ANGLE / 2), 4 * reach)
+    view_angle = 2 * np.arctan(height / 2 / distance)
+    away = distance - (z.reshape(-1) - middle)
+    flat = corners.reshape(-1, 2)
+    vertices = np.empty((len(flat), 3), np.float32)
+    vertices[:, 0] = (flat[:, 0] - (width - 1) / 2) * away / distance
+    vertices[:, 1] = ((height - 1) / 2 - flat[:, 1]) * away / distance
+    vertices[:, 2] = -away
+
+    count = len(corners)
+    numbers = np.zeros((3 * count, 3), np.float32)
+    numbers[:, 0] = np.repeat((np.arange(count) + 1) / count, 3)  # OpenCV promises colours in [0, 1] only
+    color = np.zeros((height, width, 3), np.float32)
+    depth = np.full((height, width), distance + 2 * reach, np.float32)
+    indices = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
+    settings = cv2.TriangleRasterizeSettings()
+    settings.setShadingType(cv2.RASTERIZE_SHADING_FLAT)
+    settings.setCullingMode(cv2.RASTERIZE_CULLING_CW)
+    pose = np.eye(4, dtype=np.float32)
+    near, far = distance - 2 * reach, distance + 2 * reach
+    cv2.triangleRasterize(vertices, indices, numbers, color, depth, pose, view_angle, near, far, settings)
+    return np.rint(color[..., 0] * count).astype(np.int32) - 1
+
+
+def _barycentric(
+    corners: NDArray[np.float64], area: NDArray[np.float64], seen: NDArray[np.int32]
+) -> NDArray[np.float32]:
+    """Barycentric coordinates H x W x 3 of each pixel's centre in the triangle it sees; 0 where it sees none."""
+    first, b, c = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    scale = 1 / area[:, None]  # triangles without area were left out before
+    # Weight of a corner = slope . (pixel - first corner), here as slope . pixel + offset.
+    slopes = np.stack([np.stack([c[:, 1], -c[:, 0]], 1), np.stack([-b[:, 1], b[:, 0]], 1)], axis=1) * -scale[..., None]
+    offsets = -np.einsum("tkx,tx->tk", slopes, first)  # float64: differences of large numbers
+    y, x = np.ogrid[: seen.shape[0], : seen.shape[1]]
+    weights = np.zeros((*seen.shape, 3), np.float32)
+    for k in range(2):
+        slope_x, slope_y, offset = (_of_pixel(v, seen) for v in (slopes[:, k, 0], slopes[:, k, 1], offsets[:, k]))
+        weight = slope_x * x + slope_y * y + offset
+        weights[..., k + 1] = np.clip(weight, 0, 1)
+    weights[..., 0] = np.clip(1 - weights[..., 1] - weights[..., 2], 0, 1) * (seen >= 0)
+    weights /= np.maximum(_sum_of_channels(weights), 1e-12)
+    return weights
+
+
+def _sum_of_channels(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """H x W x 3 to H x W x 1; several times faster than `sum` over so short an axis."""
+    return values[..., 0:1] + values[..., 1:2] + values[..., 2:3]
+
+
+def _of_pixel(values: NDArray[Any], seen: NDArray[np.int32], beyond: float = 0) -> NDArray[Any]:
+    """The value, of one a triangle, of the triangle that each pixel sees; `beyond` where it sees none."""
+    table = np.concatenate([values, np.full((1, *values.shape[1:]), beyond, values.dtype)])
+    return table.take(seen, axis=0, mode="wrap")
