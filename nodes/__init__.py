@@ -11,7 +11,7 @@ pack = Pack(
     name="graphface",
     operators={
         "image": "graphface.nodes.image",
-        "landmarks": "graphface.nodes.landmarks.facemesh",
+        "landmarks": "graphface.nodes.landmarks.facemesh graphface.nodes.landmarks.given",
         "geometry": "graphface.nodes.morphable.facemesh",
         "surface": "graphface.nodes.render.surface",
         "masks": "graphface.nodes.masks.face",
@@ -29,6 +29,8 @@ pack = Pack(
                 "Camera",
                 "Depth",
                 "Detail",
+                "DetailMap",
+                "Gain",
                 "Image",
                 "Intrinsic",
                 "Landmarks",

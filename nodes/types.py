@@ -56,6 +56,11 @@ def _picture_signed(values: FloatArray) -> NDArray[np.uint8]:
     return _as_bytes(values + 0.5)
 
 
+def _picture_gain(values: FloatArray) -> NDArray[np.uint8]:
+    """Mid grey is one."""
+    return _as_bytes(values / 2)
+
+
 def _picture_depth(depth: FloatArray) -> NDArray[np.uint8]:
     """Near is white, far is dark, no surface (-inf is never used; NaN neither: it is 0) is black."""
     covered = depth != 0
@@ -87,6 +92,7 @@ Depth = Annotated[
 Albedo = Annotated[FloatArray, _map("Albedo", "H W 3", "Reflectance: colour over shading.", _picture_unit, low=0)]
 Shading = Annotated[FloatArray, _map("Shading", "...", "Irradiance, H x W or H x W x 3.", _picture_unit, low=0)]
 Detail = Annotated[FloatArray, _map("Detail", "H W 3", "What rendering leaves over, signed.", _picture_signed)]
+Gain = Annotated[FloatArray, _map("Gain", "H W 3", "What rendering falls short of, as a factor.", _picture_gain, low=0)]
 
 
 @dataclass(frozen=True)
@@ -190,6 +196,18 @@ class Landmarks:
         left, right = {"facemesh468": (33, 263), "ibug68": (36, 45)}[self.scheme]
         return float(np.linalg.norm(self.points[left] - self.points[right]))
 
+    @classmethod
+    def from_file(cls, path: Path) -> Landmarks:
+        from graphface.nodes.landmarks.files import read_landmarks
+
+        return read_landmarks(path)
+
+    @staticmethod
+    def to_file(landmarks: Landmarks, path: Path) -> None:
+        from graphface.nodes.landmarks.files import write_landmarks
+
+        write_landmarks(landmarks, path)
+
 
 @dataclass(frozen=True)
 class Mesh:
@@ -226,6 +244,22 @@ class Intrinsic:
 
     albedo: Albedo
     shading: Shading
+
+
+@dataclass(frozen=True)
+class DetailMap:
+    """What the photo has and rendering lacks: photo = gain * rendering + offset.
+
+    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is all
+    `gain`, a method that splits by frequency has both. Whoever recombines needs not know which method it was.
+    """
+
+    offset: Detail
+    gain: Gain | None = None
+
+    @staticmethod
+    def picture(detail: DetailMap) -> NDArray[np.uint8]:
+        return _picture_signed(detail.offset) if detail.gain is None else _picture_gain(detail.gain)
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ MERGE_OVERLAP = 0.3
 """Answers whose boxes overlap more than this (intersection over union) are one face."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Face:
     """A detected face, in pixels of the picture it was searched in.
 

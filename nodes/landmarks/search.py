@@ -1,8 +1,8 @@
 """Finding faces that one look at the picture misses.
 
 BlazeFace was made for a phone's camera: it wants some air around a face, misses faces below about a twelfth of the
-picture, and knows only heads that are roughly upright. Each rung of the ladder below undoes one of these; the first rung
-whose faces stand up to `confirm` ends the search. Every rung that had to be climbed is recorded as a warning.
+picture, and knows only heads that are roughly upright. Each rung of the ladder below undoes one of these; the first
+rung with a face that stands up to `confirm` ends the search.
 """
 
 from __future__ import annotations
@@ -14,11 +14,17 @@ from typing import TypeVar
 import cv2
 import numpy as np
 
+from graphface import warn
 from graphface.nodes.landmarks.blazeface import Face, Range, detect
-from graphface.nodes.types import FloatArray
+from graphface.nodes.landmarks.network import network_pixels
+from graphface.nodes.types import FloatArray, Image
 
 LONG_SIDE = 1600
 """Searching is done on a copy no larger than this; the networks see 256 pixels, or tiles of it."""
+
+SURE = 0.75
+"""Detector score from which the first rung is believed alone. Measured: whole faces 0.74 and more, parts of a face up
+to 0.64."""
 
 T = TypeVar("T")
 
@@ -34,38 +40,48 @@ class View:
 
 
 def search(
-    pixels: FloatArray, confirm: Callable[[list[Face]], list[T]], *, min_score: float
+    photo: Image, confirm: Callable[[Face], T | None], *, min_score: float, thorough: bool = False
 ) -> tuple[list[T], list[str]]:
-    """What `confirm` makes of the first view's faces that it does not reject, and the names of the views tried.
+    """What `confirm` makes of the faces found, largest first, and the names of the views it took.
+
+    The ladder ends at the first rung after which a face is confirmed, except that a weak one on the first rung (half
+    a face in a tight crop also looks like a face) has to hold its own against the second.
 
     Args:
-        pixels: float32 H x W x 3, sRGB.
-        confirm: given faces in picture pixels, largest first; returns what stands, [] to go on searching.
+        photo: the picture.
+        confirm: given a face in picture pixels, what stands of it, or None for a false detection.
+        min_score: of the detector, 0..1.
+        thorough: look into the tiles in any case, for small faces beside a large one.
     """
     tried: list[str] = []
-    for views in _ladder(pixels):
-        faces = [f for view in views for f in _faces(view, min_score)]
+    found: dict[Face, T] = {}
+    for views in _ladder(photo, thorough):
         tried.append(views[0].name)
-        found = confirm(_distinct(faces)) if faces else []
-        if found:
-            return found, tried
-    return [], tried
+        for face in distinct([f for view in views for f in _faces(view, min_score)]):
+            confirmed = confirm(face)
+            if confirmed is not None:
+                found[face] = confirmed
+        if found and (len(tried) > 1 or max(f.score for f in found) >= SURE):
+            break
+    return [found[face] for face in distinct(list(found))], tried
 
 
 def _faces(view: View, min_score: float) -> list[Face]:
     return [face.moved(view.matrix) for face in detect(view.pixels, model=view.model, min_score=min_score)]
 
 
-def _ladder(pixels: FloatArray) -> Iterator[list[View]]:
-    small, shrink = _shrunk(pixels)
-    yield [View("the whole picture", small, shrink)]
+def _ladder(photo: Image, thorough: bool) -> Iterator[list[View]]:
+    small, shrink = _shrunk(photo.pixels)
+    if not np.isfinite(small).all():
+        warn("the photo has values that are not numbers: taken as black to find the face")
+    small = network_pixels(small, photo.encoding)
+    tiles = [*_tiles(small, shrink, 2), *_tiles(small, shrink, 3)]
+    whole = [View("as it is", small, shrink), View("as it is", small, shrink, "far")]
+    yield whole + tiles if thorough else whole
     padded, pad = _padded(small)
     pad = _after(shrink, pad)
-    yield [View("with a border around it", padded, pad)]
-    yield [View("for small faces", small, shrink, "far")]
-    yield [View("with a border, for small faces", padded, pad, "far")]
-    tiles = [*_tiles(small, shrink, 2), *_tiles(small, shrink, 3)]
-    if tiles:
+    yield [View("with a border around it", padded, pad), View("with a border around it", padded, pad, "far")]
+    if tiles and not thorough:
         yield tiles
     for name, turn in _TURNS.items():
         turned, matrix = _turned(padded, turn)
@@ -129,7 +145,7 @@ def _after(outer: FloatArray, inner: FloatArray) -> FloatArray:
     return np.concatenate([outer[:, :2] @ inner[:, :2], (outer[:, :2] @ inner[:, 2] + outer[:, 2])[:, None]], axis=1)
 
 
-def _distinct(faces: list[Face]) -> list[Face]:
+def distinct(faces: list[Face]) -> list[Face]:
     """Largest first, each face once: tiles overlap, so the same face comes several times."""
     kept: list[Face] = []
     for face in sorted(faces, key=lambda f: -f.score):
