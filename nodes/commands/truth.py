@@ -1,0 +1,122 @@
+"""Relight the path-traced heads by lights that are known, and compare with the path-traced answer.
+
+The heads' `meta.json` gives each light as a constant ambient radiance plus square area lights. Here an area light becomes a
+directional one and the ambient radiance a constant: what the scene model can say. Highlights, cast shadows and light
+between surfaces are in the truth and not in the answer.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from graphface import UnreadableFile
+from graphface.nodes import blend, detail, sh
+from graphface.nodes.image import decode_srgb, encode_srgb, read_image, write_image
+from graphface.nodes.intrinsic.intensity import intensity
+from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
+from graphface.nodes.masks.face import face as face_mask
+from graphface.nodes.metrics import mean_angle, psnr, si_psnr
+from graphface.nodes.morphable.facemesh import facemesh as build_mesh
+from graphface.nodes.render.scene import DirectionalLight, Scene
+from graphface.nodes.render.shade import irradiance, shade
+from graphface.nodes.render.spread import spread
+from graphface.nodes.render.surface import rasterize
+from graphface.nodes.types import Encoding, Image
+
+LIGHTS = ("left45", "right45", "top", "left80_hard", "red_blue", "ambient")
+
+Method = Literal["additive", "multiplicative", "none"]
+
+
+@dataclass(frozen=True)
+class Relit:
+    """One head under one light: figures in dB over the face label, beside those of the unchanged photo."""
+
+    head: str
+    light: str
+    psnr: float
+    si_psnr: float
+    unchanged_psnr: float
+    unchanged_si_psnr: float
+    normal_error: float
+    """Mean angle between the mesh's normals and the true ones, degrees, where the mesh lies on the face label."""
+
+
+def relight_truth(
+    data: Path, out: Path, *, encoding: Encoding = "srgb", method: Method = "additive", shoulder: float = 0.5
+) -> Iterator[Relit]:
+    """Relight every head of `data`/truth from `frontal` to the other lights; write `out`/HEAD/LIGHT.png.
+
+    Args:
+        data: the folder that holds `truth`.
+        out: made where it does not exist.
+        encoding: of the values that albedo and shading live in.
+        method: which detail map.
+        shoulder: see `blend.recombine`.
+
+    Yields:
+        One row for each picture, as it is written.
+
+    Raises:
+        UnreadableFile: there are no heads at `data`.
+    """
+    heads = sorted(path.parent for path in (data / "truth").glob("*/meta.json"))
+    if not heads:
+        raise UnreadableFile(data / "truth", "holds no heads (folders with a meta.json)")
+    for head in heads:
+        yield from _relight_head(head, out / head.name, encoding, method, shoulder)
+
+
+def known_scene(light: dict[str, Any], unit: float = 1.0) -> Scene:
+    """A light of `meta.json` as a scene; irradiances are divided by `unit`."""
+    lights = []
+    for area in light["area"]:
+        solid_angle = (2 * area["half_size"] / area["distance"]) ** 2
+        color = tuple(solid_angle * radiance / unit for radiance in area["radiance"])
+        lights.append(DirectionalLight(direction=tuple(area["direction"]), color=color))
+    ambient = np.pi * light["ambient"] / unit
+    return Scene(ambient=ambient, lights=tuple(lights), keep_mean=False, background=1)
+
+
+def _relight_head(head: Path, out: Path, encoding: Encoding, method: Method, shoulder: float) -> Iterator[Relit]:
+    lights = json.loads((head / "meta.json").read_text(encoding="utf-8"))["lights"]
+    source = read_image(head / "frontal.png")
+    face_label = (read_image(head / "labels.png").pixels[..., 1] > 0.5).astype(np.float32)
+
+    landmarks = find_landmarks(source)
+    surface = rasterize(build_mesh(landmarks), source)
+    normals = surface.normals
+    mask = face_mask(surface, landmarks)
+    photo = source if encoding == "srgb" else source.with_pixels(decode_srgb(source.pixels), "linear")
+    intrinsic = intensity(photo)
+    estimated = sh.render(sh.fit(intrinsic.shading, normals, mask).light, normals)
+    old = spread(estimated, mask, surface, landmarks)
+    leftover = getattr(detail, method)(photo, intrinsic.albedo, old)
+
+    covered = surface.coverage > 0
+    unit = float(np.average(irradiance(known_scene(lights["frontal"]), normals[covered]), weights=mask[covered]))
+    with np.load(head / "aov.npz") as maps:
+        true_normals = maps["normal"].astype(np.float32)
+    normal_error = mean_angle(normals, true_normals, face_label)
+
+    out.mkdir(parents=True, exist_ok=True)
+    for light in LIGHTS:
+        scene = known_scene(lights[light], unit)
+        new = spread(shade(normals, scene, estimated, mask, photo), mask, surface, landmarks)
+        relit = blend.recombine(photo, intrinsic.albedo, new, leftover, shoulder=shoulder)
+        result = source.with_pixels(relit.pixels if encoding == "srgb" else encode_srgb(relit.pixels))
+        write_image(result, out / f"{light}.png")
+        yield _compared(head, light, result, source, face_label, normal_error)
+
+
+def _compared(head: Path, light: str, result: Image, source: Image, mask: Any, normal_error: float) -> Relit:
+    truth = read_image(head / f"{light}.png").pixels
+    shown, before = np.clip(result.pixels, 0, 1), source.pixels
+    figures = [measure(picture, truth, mask) for picture in (shown, before) for measure in (psnr, si_psnr)]
+    return Relit(head.name, light, *figures, normal_error)
