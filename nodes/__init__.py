@@ -9,6 +9,8 @@ _TYPES = "graphface.nodes.types"
 
 pack = Pack(
     name="graphface",
+    graphs="graphface.graphs",
+    assets="graphface.nodes.landmarks.weights:ASSETS",
     operators={
         "image": "graphface.nodes.image",
         "landmarks": "graphface.nodes.landmarks.facemesh graphface.nodes.landmarks.given",
