@@ -2,34 +2,84 @@
 
     import graphface
 
-    relight = graphface.load("relight.yaml")
-    result = relight.run(photo="portrait.jpg", outputs=["image"])
+    relight = graphface.load("relight")
+    result = relight.run(photo="portrait.jpg")
     result["image"]
+
+Names are imported when first used: `import graphface` and `graphface --help` pay for no array library. `node` alone is
+imported at once, since the module of the same name would otherwise take its place in the package.
 """
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
-from graphface.errors import GraphfaceError, RunError, UnreadableFile, UnwritableFile, UsageError
 from graphface.node import Cosmetic, Needs, node
-from graphface.registry import Pack
-from graphface.values import ArrayType, Lazy
-from graphface.warn import GraphfaceWarning, warn
 
 if TYPE_CHECKING:
+    from graphface.assets import Asset
+    from graphface.cache.memory import MemoryTier
+    from graphface.errors import (
+        DocumentError,
+        GraphfaceError,
+        NodeError,
+        RunError,
+        RunFailed,
+        UnreadableFile,
+        UnwritableFile,
+        UsageError,
+    )
+    from graphface.evaluate import Evaluator, Result
+    from graphface.fallback import GraphfaceWarning, warn
     from graphface.graph import Graph, load
+    from graphface.observe import Observer
+    from graphface.registry import Pack, Registry
+    from graphface.values import ArrayType, Lazy
 
 __version__ = "0.1.0"
 
+_HOMES = {
+    "ArrayType": "values",
+    "Asset": "assets",
+    "DocumentError": "errors",
+    "Evaluator": "evaluate",
+    "Graph": "graph",
+    "GraphfaceError": "errors",
+    "GraphfaceWarning": "fallback",
+    "Lazy": "values",
+    "MemoryTier": "cache.memory",
+    "NodeError": "errors",
+    "Observer": "observe",
+    "Pack": "registry",
+    "Registry": "registry",
+    "Result": "evaluate",
+    "RunError": "errors",
+    "RunFailed": "errors",
+    "UnreadableFile": "errors",
+    "UnwritableFile": "errors",
+    "UsageError": "errors",
+    "load": "graph",
+    "warn": "fallback",
+}
+
 __all__ = [
     "ArrayType",
+    "Asset",
     "Cosmetic",
+    "DocumentError",
+    "Evaluator",
     "Graph",
     "GraphfaceError",
     "GraphfaceWarning",
     "Lazy",
+    "MemoryTier",
     "Needs",
+    "NodeError",
+    "Observer",
     "Pack",
+    "Registry",
+    "Result",
     "RunError",
+    "RunFailed",
     "UnreadableFile",
     "UnwritableFile",
     "UsageError",
@@ -40,9 +90,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """`Graph` and `load` bring YAML and the evaluator: imported when first asked for."""
-    if name in ("Graph", "load"):
-        from graphface import graph
-
-        return getattr(graph, name)
+    if name in _HOMES:
+        value = getattr(importlib.import_module(f"graphface.{_HOMES[name]}"), name)
+        globals()[name] = value
+        return value
     raise AttributeError(f"module 'graphface' has no attribute {name!r}")

@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import Literal
 
 from graphface.errors import RunError
-from graphface.warn import warn
+from graphface.fallback import warn
 
 FOLDER_VARIABLE = "GRAPHFACE_ASSETS"
 PIP_TIMEOUT = 300.0

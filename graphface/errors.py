@@ -8,8 +8,13 @@ was asked cannot be done (exit code 2), `RunError` that doing it failed (exit co
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from graphface.located import Place
 
 
 class GraphfaceError(Exception):
@@ -53,6 +58,72 @@ class UnknownOperator(UnknownName):
 
 class UnknownType(UnknownName):
     kind = "type"
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing wrong with a graph file or a flag: what, where, and the names that may have been meant."""
+
+    message: str
+    place: Place | None = None
+    nearest: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        text = f"{self.message}{did_you_mean(list(self.nearest))}"
+        if self.place is None:
+            return text
+        return f"{self.place}: {text}\n{self.place.excerpt}".rstrip()
+
+
+class DocumentError(UsageError):
+    """A graph is wrong; `problems` has every mistake found, not only the first."""
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        self.problems = list(problems)
+        super().__init__("\n".join(str(p) for p in self.problems))
+
+
+class InputError(UsageError):
+    """What was given for a graph input, or asked of its outputs, does not fit."""
+
+    def __init__(self, name: str, reason: str, nearest: Sequence[str] = ()) -> None:
+        self.name = name
+        self.reason = reason
+        self.nearest = list(nearest)
+        super().__init__(f"{name!r}: {reason}{did_you_mean(self.nearest)}")
+
+
+class NodeError(RunError):
+    """A node failed; the original exception is the cause.
+
+    Attributes:
+        node, operator: their names. place: where the graph file states the node.
+        inputs: port to a short description of the value it got (shape, dtype, range).
+    """
+
+    def __init__(self, node: str, operator: str, place: Place | None, reason: str, inputs: dict[str, str]) -> None:
+        self.node = node
+        self.operator = operator
+        self.place = place
+        self.reason = reason
+        self.inputs = inputs
+        where = f"{place}: " if place is not None else ""
+        lines = [f"{where}node {node!r} ({operator}) failed: {reason}"]
+        lines += [f"    {port}: {shown}" for port, shown in inputs.items()]
+        super().__init__("\n".join(lines))
+
+
+class NonFiniteError(NodeError):
+    """A node gave NaN or infinity."""
+
+
+class RunFailed(RunError):
+    """One or more nodes failed; `failures` has each, `finished` the values of outputs that did not need them."""
+
+    def __init__(self, failures: Sequence[NodeError], finished: dict[str, object]) -> None:
+        self.failures = list(failures)
+        self.finished = finished
+        super().__init__("\n".join(str(f) for f in self.failures))
 
 
 class UnreadableFile(UsageError):

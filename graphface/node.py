@@ -102,6 +102,11 @@ class Operator:
         """The fields of a dataclass output: the ports reached as `node.field`."""
         return output_fields(self._hints["return"])
 
+    @cached_property
+    def plain_outputs(self) -> frozenset[type]:
+        """The classes whose instances are certainly of the output's type; others are checked in full."""
+        return frozenset(a for a in self.output.alternatives if isinstance(a, type) and a is not object)
+
     @property
     def output_annotation(self) -> Any:
         return self._hints["return"]

@@ -17,11 +17,14 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphface.errors import PluginError, UnknownOperator, UnknownType
 from graphface.node import Operator, operator_of
 from graphface.values import ANY, ListOf, PortType, port_type
+
+if TYPE_CHECKING:
+    from graphface.assets import Asset
 
 ENTRY_POINTS = "graphface.nodes"
 _BUILTIN_TYPES: dict[str, Any] = {"Any": object, "int": int, "float": float, "str": str, "bool": bool, "Path": Path}
@@ -36,11 +39,15 @@ class Pack:
         operators: operator family ("intrinsic" for `intrinsic.*`) to the modules that declare it, separated by spaces
             where a family is spread over several.
         types: name used in graph files to "module:attribute".
+        graphs: the package whose folder holds shipped graph files.
+        assets: "module:attribute" of a tuple of `graphface.assets.Asset`, the files that its operators fetch.
     """
 
     name: str
     operators: Mapping[str, str]
     types: Mapping[str, str] = field(default_factory=dict)
+    graphs: str = ""
+    assets: str = ""
 
 
 class Registry:
@@ -120,6 +127,25 @@ class Registry:
     def type_names(self) -> list[str]:
         return sorted({*_BUILTIN_TYPES, *(name for pack in self._packs for name in pack.types)})
 
+    def extended(self) -> Registry:
+        """A registry with everything of this one, to which more can be added without changing this one."""
+        other = Registry(self._packs)
+        other._added = dict(self._added)
+        other._loaded = self._loaded
+        return other
+
+    def graph_packages(self) -> list[str]:
+        """Packages whose folders hold shipped graph files."""
+        return [pack.graphs for pack in self._packs if pack.graphs]
+
+    def assets(self) -> list[Asset]:
+        """The files that operators of the packs fetch when first needed."""
+        found: list[Asset] = []
+        for pack in self._packs:
+            if pack.assets:
+                found += _attribute(pack.assets)
+        return found
+
     def _named_type(self, name: str) -> PortType:
         if name == "Any":
             return ANY
@@ -127,8 +153,7 @@ class Registry:
             return port_type(_BUILTIN_TYPES[name])
         for pack in self._packs:
             if name in pack.types:
-                module, _, attribute = pack.types[name].partition(":")
-                return port_type(getattr(importlib.import_module(module), attribute))
+                return port_type(_attribute(pack.types[name]))
         raise UnknownType(name, self.type_names())
 
     def _family(self, family: str) -> dict[str, Operator]:
@@ -157,6 +182,12 @@ def default_registry() -> Registry:
     from importlib.metadata import entry_points
 
     return Registry([point.load() for point in entry_points(group=ENTRY_POINTS)])
+
+
+def _attribute(where: str) -> Any:
+    """What "module:attribute" names."""
+    module, _, name = where.partition(":")
+    return getattr(importlib.import_module(module), name)
 
 
 def _import_file(path: Path) -> ModuleType:

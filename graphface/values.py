@@ -25,8 +25,6 @@ from dataclasses import dataclass, is_dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
-import numpy as np
-
 T = TypeVar("T")
 
 
@@ -69,6 +67,8 @@ class ArrayType:
 
     def problem(self, value: object) -> str | None:
         """Why `value` is not of this type, or None where it is."""
+        import numpy as np
+
         if not isinstance(value, np.ndarray):
             return f"expected an array ({self.name}), got {type(value).__name__}"
         if value.dtype.kind not in self.kind:
@@ -218,6 +218,8 @@ def _atom_accepts(mine: Atom, theirs: Atom) -> bool:
     if isinstance(mine, ArrayType):
         return isinstance(theirs, ArrayType) and theirs.is_a(mine)
     if isinstance(theirs, ArrayType):
+        import numpy as np
+
         return issubclass(np.ndarray, mine)
     if isinstance(theirs, ListOf):
         return issubclass(list, mine)

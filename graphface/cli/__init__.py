@@ -1,0 +1,108 @@
+"""The command line: one short file per command, joined by those of installed packs.
+
+Every error that speaks to the user leaves here as one message on standard error and an exit code: 2 where the request
+was wrong, 1 where doing it failed, 130 where it was interrupted. A traceback is shown only with GRAPHFACE_TRACEBACK=1.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.metadata import entry_points
+from typing import Any
+
+import typer
+
+from graphface.cli import assets, nodes, plan, run
+
+ENTRY_POINTS = "graphface.commands"
+
+
+def build() -> typer.Typer:
+    """The application with the commands of the engine and of every installed pack."""
+    app = typer.Typer(
+        name="graphface",
+        help="Edit photographs of faces with graphs of swappable operators.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode="rich",
+    )
+    app.callback()(_version)
+    app.command("run")(run.run)
+    app.command("plan")(plan.plan)
+    app.command("nodes")(nodes.nodes)
+    app.add_typer(assets.app, name="assets")
+    for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda p: p.name):
+        command = point.load()
+        if isinstance(command, typer.Typer):
+            app.add_typer(command, name=point.name)
+        else:
+            app.command(point.name)(command)
+    return app
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and exit."""
+    if os.environ.get("GRAPHFACE_TRACEBACK"):
+        build()(arguments)
+        return
+    sys.exit(_guarded(arguments))
+
+
+def _guarded(arguments: list[str] | None) -> int:
+    from graphface.errors import GraphfaceError, UsageError
+
+    try:
+        result = build()(arguments, standalone_mode=False)
+    except GraphfaceError as error:
+        _say(_message(error))
+        return 2 if isinstance(error, UsageError) else 1
+    except (KeyboardInterrupt, typer.Abort):
+        _say("interrupted; what was computed is kept where a cache is in use")
+        return 130
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 1
+    except Exception as error:
+        if hasattr(error, "exit_code") and hasattr(error, "format_message"):
+            error.show()  # type: ignore[attr-defined]
+            return int(error.exit_code)
+        _say(f"internal error: {type(error).__name__}: {error} (GRAPHFACE_TRACEBACK=1 shows where)")
+        return 1
+    return result if isinstance(result, int) else 0
+
+
+def _message(error: Exception) -> str:
+    """What to tell the user: a failure that the node itself explained needs no array shapes beside it."""
+    from graphface.errors import GraphfaceError, RunFailed
+
+    if not isinstance(error, RunFailed):
+        return str(error)
+    told = []
+    for failure in error.failures[:5]:
+        explained = isinstance(failure.__cause__, GraphfaceError)
+        told.append(f"node {failure.node!r}: {failure.reason}" if explained else str(failure))
+    if len(error.failures) > 5:
+        told.append(f"and {len(error.failures) - 5} more")
+    return "\n".join(told)
+
+
+def _say(message: str) -> None:
+    print(f"error: {message}", file=sys.stderr)
+
+
+def _version(
+    version: bool = typer.Option(False, "--version", help="Show the version and leave.", is_eager=True),
+) -> None:
+    if version:
+        from graphface import __version__
+
+        print(f"graphface {__version__}")
+        raise typer.Exit
+
+
+def __getattr__(name: str) -> Any:
+    if name == "app":
+        return build()
+    raise AttributeError(name)

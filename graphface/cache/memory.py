@@ -1,0 +1,102 @@
+"""The memory tier: memoized values under a budget in bytes.
+
+An array is counted once however many values hold it (a node that passes its photo on costs nothing), and what is
+dropped first is what is cheapest to compute again per byte held, among equals the longest unused. Ranking happens only
+when the budget is exceeded, over all entries at once and down to 90 %, so that a hit or a put is a dictionary operation.
+"""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import numpy as np
+
+MISSING = object()
+_ENTRY_BYTES = 200
+_DROP_TO = 0.9
+
+
+class MemoryTier:
+    """Values by key; safe to share between threads.
+
+    Args:
+        budget: bytes of array data to hold at the most; a value larger than this is not kept.
+    """
+
+    def __init__(self, budget: int = 2 << 30) -> None:
+        self.budget = budget
+        self.bytes = 0
+        self.evicted: set[bytes] = set()
+        self._values: dict[bytes, Any] = {}
+        self._costs: dict[bytes, tuple[float, tuple[np.ndarray, ...]]] = {}
+        self._used: dict[bytes, int] = {}
+        self._holders: dict[int, int] = {}
+        self._clock = 0
+        self._lock = threading.Lock()
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __contains__(self, key: bytes) -> bool:
+        return key in self._values
+
+    def get(self, key: bytes) -> Any:
+        """The value, or `MISSING`."""
+        value = self._values.get(key, MISSING)
+        if value is not MISSING:
+            self._clock += 1
+            self._used[key] = self._clock
+        return value
+
+    def put(self, key: bytes, value: Any, seconds: float, arrays: tuple[np.ndarray, ...] = ()) -> None:
+        """Keep a value that took `seconds` to compute; `arrays` are the buffers it holds (`frozen.buffers`)."""
+        with self._lock:
+            if key in self._values:
+                return
+            if arrays and sum(a.nbytes for a in arrays) > self.budget:
+                return
+            self._values[key] = value
+            self._costs[key] = (seconds, arrays)
+            self._clock += 1
+            self._used[key] = self._clock
+            self.bytes += _ENTRY_BYTES
+            for array in arrays:
+                held = self._holders.get(id(array), 0)
+                self._holders[id(array)] = held + 1
+                if held == 0:
+                    self.bytes += array.nbytes
+            if self.bytes > self.budget:
+                self._shrink(key)
+
+    def clear(self) -> None:
+        with self._lock:
+            self.evicted.update(self._values)
+            for held in (self._values, self._costs, self._used, self._holders):
+                held.clear()
+            self.bytes = 0
+
+    def _shrink(self, newest: bytes) -> None:
+        """Drop entries, least worth first, until under the mark; the newest stays if it can."""
+        ranked = sorted(self._values, key=lambda k: (k == newest, self._worth(k), self._used[k]))
+        for key in ranked:
+            if self.bytes <= self.budget * _DROP_TO:
+                break
+            self._drop(key)
+
+    def _worth(self, key: bytes) -> float:
+        """Seconds saved per byte freed; a byte that others hold too is not freed."""
+        seconds, arrays = self._costs[key]
+        freed = _ENTRY_BYTES + sum(a.nbytes for a in arrays if self._holders[id(a)] == 1)
+        return seconds / freed
+
+    def _drop(self, key: bytes) -> None:
+        _, arrays = self._costs.pop(key)
+        del self._values[key], self._used[key]
+        self.evicted.add(key)
+        self.bytes -= _ENTRY_BYTES
+        for array in arrays:
+            self._holders[id(array)] -= 1
+            if self._holders[id(array)] == 0:
+                del self._holders[id(array)]
+                self.bytes -= array.nbytes

@@ -1,0 +1,28 @@
+"""`graphface nodes`: the operators there are, and the reference of one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from graphface.cli.options import Plugins
+
+
+def nodes(
+    name: Annotated[str, typer.Argument(help="An operator; without one, all are listed.")] = "",
+    plugins: Plugins = [],  # noqa: B006
+) -> None:
+    """List the operators, or show one: its ports, parameters, documentation and what may take its place."""
+    from graphface.registry import default_registry
+    from graphface.terminal import print_operator, print_operators
+
+    registry = default_registry().extended()
+    for plugin in plugins:
+        registry.add_file(Path(plugin))
+    if name:
+        operator = registry.operator(name)
+        print_operator(operator, [other.name for other in registry.alternatives(operator)])
+    else:
+        print_operators([registry.operator(n) for n in registry.names()])

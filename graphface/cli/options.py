@@ -1,0 +1,65 @@
+"""Options that several commands share: which graph, with which choices, on which inputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from graphface.graph import Graph
+
+GraphName = Annotated[str, typer.Argument(metavar="GRAPH", help="A graph file, or the name of a shipped one (relight).")]
+Inputs = Annotated[
+    list[str], typer.Option("-i", "--input", metavar="NAME=VALUE", help="A graph input: a file, or a value.")
+]
+Sets = Annotated[
+    list[str], typer.Option("--set", metavar="NODE.PARAM=VALUE", help="Set a parameter; wins over everything.")
+]
+Replaces = Annotated[
+    list[str], typer.Option("--replace", metavar="NODE=OPERATOR", help="Use another operator for a node.")
+]
+Variants = Annotated[list[str], typer.Option("--variant", metavar="NAME", help="A variant that the graph declares.")]
+Profiles = Annotated[list[str], typer.Option("--profile", metavar="NAME", help="A profile: draft, full, ...")]
+Plugins = Annotated[list[Path], typer.Option("--plugin", metavar="FILE.py", help="A file of further operators.")]
+
+
+def load_graph(
+    graph: str,
+    sets: list[str],
+    replaces: list[str],
+    variants: list[str],
+    profiles: list[str],
+    plugins: list[Path],
+) -> Graph:
+    """The graph with everything that the flags say.
+
+    Raises:
+        DocumentError, UnreadableFile, PluginError: see `graphface.load`.
+    """
+    from graphface.compose import read_flag
+    from graphface.graph import load
+
+    return load(
+        graph,
+        set=dict(read_flag(text, "--set") for text in sets),
+        replace=dict(_pair(text, "--replace") for text in replaces),
+        variants=variants,
+        profiles=profiles,
+        plugins=plugins,
+    )
+
+
+def read_inputs(pairs: list[str]) -> dict[str, Any]:
+    """ "name=value" flags as a dictionary."""
+    return dict(_pair(text, "-i") for text in pairs)
+
+
+def _pair(text: str, flag: str) -> tuple[str, str]:
+    from graphface.errors import UsageError
+
+    name, equals, value = text.partition("=")
+    if not equals or not name or not value:
+        raise UsageError(f"{flag} {text!r}: expected NAME=VALUE")
+    return name, value

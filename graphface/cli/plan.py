@@ -1,0 +1,41 @@
+"""`graphface plan`: what a run would do, and why not the rest."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from graphface.cli.options import (
+    GraphName,
+    Inputs,
+    Plugins,
+    Profiles,
+    Replaces,
+    Sets,
+    Variants,
+    load_graph,
+    read_inputs,
+)
+
+
+def plan(
+    graph: GraphName,
+    inputs: Inputs = [],  # noqa: B006
+    output: Annotated[
+        list[str], typer.Option("-o", "--output", metavar="NAME", help="An output, or any node.port; default: all.")
+    ] = [],  # noqa: B006
+    sets: Sets = [],  # noqa: B006
+    replaces: Replaces = [],  # noqa: B006
+    variants: Variants = [],  # noqa: B006
+    profiles: Profiles = [],  # noqa: B006
+    plugins: Plugins = [],  # noqa: B006
+) -> None:
+    """Show what a run would do: every node as run, memory, disk, maybe or skipped, with the reason."""
+    from graphface.evaluate import Evaluator
+    from graphface.plan import plan as make_plan
+    from graphface.terminal import print_plan
+
+    loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
+    names = [text.partition("=")[0] for text in output] or None
+    print_plan(make_plan(loaded, loaded.bind(read_inputs(inputs)), loaded.targets(names), Evaluator()))

@@ -1,0 +1,88 @@
+"""`graphface run`: evaluate outputs of a graph and write them to files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from graphface.cli.options import (
+    GraphName,
+    Inputs,
+    Plugins,
+    Profiles,
+    Replaces,
+    Sets,
+    Variants,
+    load_graph,
+    read_inputs,
+)
+
+if TYPE_CHECKING:
+    from graphface.graph import Graph
+
+
+def run(
+    graph: GraphName,
+    inputs: Inputs = [],  # noqa: B006
+    output: Annotated[
+        list[str],
+        typer.Option("-o", "--output", metavar="[NAME=]FILE", help="An output, or any node.port, and its file."),
+    ] = [],  # noqa: B006
+    sets: Sets = [],  # noqa: B006
+    replaces: Replaces = [],  # noqa: B006
+    variants: Variants = [],  # noqa: B006
+    profiles: Profiles = [],  # noqa: B006
+    plugins: Plugins = [],  # noqa: B006
+    threads: Annotated[int, typer.Option(min=0, help="Nodes that may run at once; 0: one per core.")] = 0,
+    guard: Annotated[str, typer.Option(help="What to do about NaN and infinity: off, warn or error.")] = "error",
+    times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
+) -> None:
+    """Run a graph: [bold]graphface run relight -i photo=portrait.jpg -o relit.png[/bold]"""
+    import os
+
+    from graphface.errors import UsageError
+    from graphface.evaluate import Evaluator
+    from graphface.outputs import check_folder, write_output
+    from graphface.terminal import ProgressBar, print_times, print_warnings
+
+    if guard not in ("off", "warn", "error"):
+        raise UsageError(f"--guard {guard!r}: expected off, warn or error")
+    loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
+    files = output_files(loaded, output)
+    for path in files.values():
+        check_folder(path)
+    targets = loaded.targets(files)
+    bound = loaded.bind(read_inputs(inputs))
+    with ProgressBar() as bar:
+        evaluator = Evaluator(threads=threads or os.cpu_count() or 1, guard=guard, observers=[bar])  # type: ignore[arg-type]
+        result = evaluator.run(loaded, bound, targets)
+    for name, path in files.items():
+        write_output(result[name], loaded.type_of(targets[name]), path)
+    print_warnings(result)
+    if times:
+        print_times(result.records)
+
+
+def output_files(graph: Graph, given: list[str]) -> dict[str, Path]:
+    """Output name to file; a bare FILE is the graph's first output.
+
+    Raises:
+        UsageError: no output was given, or one twice.
+    """
+    from graphface.errors import UsageError
+
+    if not given:
+        raise UsageError(f"no output asked for; add -o FILE, or -o NAME=FILE (outputs: {', '.join(graph.outputs)})")
+    files: dict[str, Path] = {}
+    for text in given:
+        name, equals, file = text.partition("=")
+        if not equals:
+            if not graph.outputs:
+                raise UsageError(f"-o {text}: the graph declares no output; say -o NODE={text}")
+            name, file = next(iter(graph.outputs)), text
+        if name in files:
+            raise UsageError(f"-o {text}: output {name!r} is asked for twice")
+        files[name] = Path(file)
+    return files

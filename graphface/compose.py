@@ -1,0 +1,524 @@
+"""Many graph files and flags to one flat graph: `extends`, nested graphs, variants, profiles, `--replace`, `--set`.
+
+One order decides between settings of the same thing, weakest first:
+
+1. the operator's own defaults,
+2. a file's base (`extends`), then the file itself,
+3. what an enclosing graph says under `with` of the node that uses the file,
+4. variants, in the order asked for; a used file's own before its user's,
+5. profiles, likewise,
+6. `--replace`, then `--set`.
+
+Every overlay is the same thing, a partial node addressed by its path ("face/landmarks"), so there is one mechanism:
+overlays travel down to the file that declares the node and are laid over it in the order of their rank.
+
+A graph file names other files only below the folder of the file that was asked for, or among the graphs that installed
+packs ship: a graph from a stranger cannot reach into the rest of the disk.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from graphface.document import (
+    NAME,
+    Document,
+    InputEntry,
+    NodeEntry,
+    Setting,
+    Wire,
+    read_document,
+)
+from graphface.errors import DocumentError, Problem, UnreadableFile, nearest_names
+from graphface.located import Place, Source, parse, scalar
+
+MAX_NODES = 2_000_000
+MAX_NESTING = 32
+GRAPH_SUFFIXES = (".yaml", ".yml")
+
+_WITH, _VARIANT, _PROFILE, _REPLACE, _SET = range(5)
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a wire leads to: a node or graph input of the flat graph, and fields of its value."""
+
+    name: str
+    fields: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return ".".join((self.name, *self.fields))
+
+
+@dataclass(frozen=True)
+class FlatWire:
+    targets: tuple[Target, ...]
+    is_list: bool
+    place: Place | None
+
+
+@dataclass
+class FlatNode:
+    """A node of the flat graph. `carried` names ports and parameters written for an operator since replaced: they apply
+    where the new operator knows them and are dropped where it does not."""
+
+    name: str
+    place: Place
+    use: Setting
+    wires: dict[str, FlatWire] = field(default_factory=dict)
+    settings: dict[str, Setting] = field(default_factory=dict)
+    carried: set[str] = field(default_factory=set)
+
+
+@dataclass
+class Composition:
+    """The flat graph, still in names: the operators behind them are looked up by `graphface.graph`."""
+
+    source: Source
+    path: Path | None
+    name: str
+    doc: str
+    inputs: dict[str, InputEntry]
+    nodes: dict[str, FlatNode]
+    outputs: dict[str, Target]
+    variants: list[str]
+    profiles: list[str]
+    scope: Scope
+    files: list[Path]
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the caller chose: names of variants and profiles, operators to replace and parameters to set, by path."""
+
+    variants: Sequence[str] = ()
+    profiles: Sequence[str] = ()
+    replace: Mapping[str, str] = field(default_factory=dict)
+    set: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Overlay:
+    rank: int
+    path: tuple[str, ...]
+    entry: NodeEntry
+
+
+@dataclass
+class Scope:
+    """One graph file in its place in the nesting: what its names mean."""
+
+    prefix: str
+    document: Document
+    parent: Scope | None
+    wires: dict[str, Wire]
+    graphs: dict[str, Scope] = field(default_factory=dict)
+    carried: dict[str, set[str]] = field(default_factory=dict)
+
+
+def compose(document: Document, choices: Choices, *, shipped: Sequence[Path] = ()) -> Composition:
+    """The flat graph of a document after every overlay.
+
+    Args:
+        document: as read by `read_document`.
+        choices: variants, profiles, replacements and parameters asked for.
+        shipped: folders of graph files that installed packs offer.
+
+    Raises:
+        DocumentError: with every problem found.
+    """
+    return _Composer(document, choices, shipped).run()
+
+
+def find_graph(name: str, shipped: Sequence[Path]) -> Path:
+    """The file of a graph given on the command line: a path, or the name of a shipped graph ("relight").
+
+    Raises:
+        UnreadableFile: neither exists; the message lists the shipped ones.
+    """
+    path = Path(name)
+    if path.is_file():
+        return path
+    for folder in shipped:
+        for candidate in (folder / name, *(folder / f"{name}{s}" for s in GRAPH_SUFFIXES)):
+            if candidate.is_file():
+                return candidate
+    known = shipped_graphs(shipped)
+    hint = f" (shipped graphs: {', '.join(known)})" if known else ""
+    raise UnreadableFile(name, f"no such graph file{hint}")
+
+
+def shipped_graphs(shipped: Sequence[Path]) -> list[str]:
+    return sorted(p.stem for folder in shipped for s in GRAPH_SUFFIXES for p in folder.glob(f"*{s}"))
+
+
+class _Composer:
+    def __init__(self, document: Document, choices: Choices, shipped: Sequence[Path]) -> None:
+        self._top = document
+        self._choices = choices
+        self._shipped = [folder.resolve() for folder in shipped]
+        folder = document.path.parent if document.path is not None else Path.cwd()
+        self._roots = [folder.resolve(), *self._shipped]
+        self._problems: list[Problem] = []
+        self._declared: dict[str, set[str]] = {"variant": set(), "profile": set()}
+        self._nodes: dict[str, FlatNode] = {}
+        self._inputs: dict[str, InputEntry] = {}
+        self._read: dict[Path, Document] = {}
+        self._count = 0
+
+    def run(self) -> Composition:
+        document = self._with_bases(self._top, ())
+        scope = self._expand(document, "", None, {}, self._flag_overlays(), ())
+        for kind, chosen in (("variant", self._choices.variants), ("profile", self._choices.profiles)):
+            for name in chosen:
+                if name not in self._declared[kind]:
+                    place = Place(Source(f"--{kind}", name), 1, 1)
+                    known = sorted(self._declared[kind])
+                    has = f"the graph has {', '.join(known)}" if known else "the graph has none"
+                    self._problem(f"unknown {kind} {name!r} ({has})", place, nearest_names(name, known))
+        outputs = self._resolve_all(scope) if not self._problems else {}
+        if self._problems:
+            raise DocumentError(self._problems)
+        return Composition(
+            source=document.source,
+            path=document.path,
+            name=document.name or (document.path.stem if document.path else "graph"),
+            doc=document.doc,
+            inputs=self._inputs,
+            nodes=self._nodes,
+            outputs=outputs,
+            variants=sorted(self._declared["variant"]),
+            profiles=sorted(self._declared["profile"]),
+            scope=scope,
+            files=list(self._read),
+        )
+
+    # --- files ------------------------------------------------------------------------------------
+
+    def _load(self, text: str, near: Document, place: Place | None) -> Document | None:
+        """The document a file names, looked for beside it and then among the shipped graphs."""
+        folder = near.path.parent if near.path is not None else Path.cwd()
+        for base in (folder, *self._shipped):
+            path = (base / text).resolve()
+            if not path.is_file():
+                continue
+            if not any(path.is_relative_to(root) for root in self._roots):
+                self._problem(f"{text!r} lies outside the folder of the graph", place)
+                return None
+            if path not in self._read:
+                try:
+                    document, problems = read_document(path)
+                except (UnreadableFile, DocumentError) as error:
+                    self._problem(f"{text!r} cannot be used", place)
+                    self._problems += error.problems if isinstance(error, DocumentError) else [Problem(str(error))]
+                    return None
+                self._problems += problems
+                self._read[path] = document
+            return self._read[path]
+        known = shipped_graphs(self._roots)
+        self._problem(f"no graph file {text!r}", place, [f"{n}.yaml" for n in nearest_names(Path(text).stem, known)])
+        return None
+
+    def _with_bases(self, document: Document, chain: tuple[Path, ...]) -> Document:
+        """A document laid over the one it extends."""
+        if document.extends is None:
+            return document
+        base = self._load(document.extends.value, document, document.extends.place)
+        if base is None:
+            return document
+        assert base.path is not None
+        if base.path in chain or len(chain) >= MAX_NESTING:
+            self._problem(f"{document.extends.value!r} extends itself", document.extends.place)
+            return document
+        base = self._with_bases(base, (*chain, base.path))
+        merged = copy.copy(document)
+        merged.doc = document.doc or base.doc
+        merged.inputs = base.inputs | document.inputs
+        merged.outputs = base.outputs | document.outputs
+        merged.nodes = {name: _copy(entry) for name, entry in base.nodes.items()}
+        for name, entry in document.nodes.items():
+            if name in merged.nodes:
+                _lay_over(merged.nodes[name], entry)
+            else:
+                merged.nodes[name] = entry
+        merged.variants = base.variants | document.variants
+        merged.profiles = base.profiles | document.profiles
+        return merged
+
+    # --- overlays ---------------------------------------------------------------------------------
+
+    def _flag_overlays(self) -> list[_Overlay]:
+        overlays = []
+        for path, operator in self._choices.replace.items():
+            place = Place(Source("--replace", f"{path}={operator}"), 1, 1)
+            entry = NodeEntry(path, place, use=Setting(operator, place))
+            overlays.append(_Overlay(_REPLACE, tuple(path.split("/")), entry))
+        for key, value in self._choices.set.items():
+            place = Place(Source("--set", f"{key}={value}"), 1, 1)
+            path, dot, parameter = key.rpartition(".")
+            if not dot:
+                self._problem(f"{key!r}: expected node.parameter", place)
+                continue
+            entry = NodeEntry(path, place, settings={parameter: Setting(value, place)})
+            overlays.append(_Overlay(_SET, tuple(path.split("/")), entry))
+        return overlays
+
+    def _own_overlays(self, document: Document) -> list[_Overlay]:
+        """The chosen variants and profiles that this file declares."""
+        overlays = []
+        for kind, rank, declared, chosen in (
+            ("variant", _VARIANT, document.variants, self._choices.variants),
+            ("profile", _PROFILE, document.profiles, self._choices.profiles),
+        ):
+            self._declared[kind] |= declared.keys()
+            for name in chosen:
+                for path, entry in declared.get(name, {}).items():
+                    overlays.append(_Overlay(rank, tuple(path.split("/")), entry))
+        return overlays
+
+    # --- nesting ----------------------------------------------------------------------------------
+
+    def _expand(
+        self,
+        document: Document,
+        prefix: str,
+        parent: Scope | None,
+        wires: dict[str, Wire],
+        pending: Iterable[_Overlay],
+        chain: tuple[Path, ...],
+    ) -> Scope:
+        scope = Scope(prefix, document, parent, wires)
+        overlays = sorted([*self._own_overlays(document), *pending], key=lambda o: o.rank)
+        nodes = {name: _copy(entry) for name, entry in document.nodes.items()} if overlays else document.nodes
+        below: dict[str, list[_Overlay]] = {}
+        for overlay in overlays:
+            head, *rest = overlay.path
+            if head not in nodes:
+                self._unknown_node(overlay, prefix, nodes)
+            elif rest:
+                below.setdefault(head, []).append(_Overlay(overlay.rank, tuple(rest), overlay.entry))
+            else:
+                scope.carried.setdefault(head, set()).update(_lay_over(nodes[head], overlay.entry))
+        self._declare_inputs(scope)
+        for name, node in nodes.items():
+            if node.removed:
+                continue
+            if node.use is None:
+                self._problem(f"node {prefix + name!r} has no 'use': which operator or graph file is it?", node.place)
+            elif node.use.value.endswith(GRAPH_SUFFIXES):
+                self._expand_graph(scope, node, below.get(name, []), chain)
+            else:
+                for overlay in below.get(name, []):
+                    self._problem(f"node {prefix + name!r} is an operator and has no nodes inside", overlay.entry.place)
+                self._count += 1
+                self._nodes[prefix + name] = FlatNode(
+                    prefix + name, node.place, node.use, {}, node.settings, scope.carried.get(name, set())
+                )
+            if self._count > MAX_NODES:
+                raise DocumentError([Problem(f"more than {MAX_NODES:,} nodes", node.place)])
+        scope.document = copy.copy(document)
+        scope.document.nodes = nodes
+        return scope
+
+    def _expand_graph(self, scope: Scope, node: NodeEntry, below: list[_Overlay], chain: tuple[Path, ...]) -> None:
+        assert node.use is not None
+        inner = self._load(node.use.value, scope.document, node.use.place)
+        if inner is None:
+            return
+        assert inner.path is not None
+        if inner.path in chain or inner.path.resolve() == (self._top.path and self._top.path.resolve()):
+            self._problem(f"{node.use.value!r} uses itself", node.use.place)
+            return
+        if len(chain) >= MAX_NESTING:
+            self._problem(f"graphs nested deeper than {MAX_NESTING}", node.use.place)
+            return
+        inner = self._with_bases(inner, (inner.path,))
+        assert inner.path is not None
+        pending, constants = [], {}
+        for key, setting in node.settings.items():
+            path, dot, parameter = key.rpartition(".")
+            if dot:
+                place = setting.place or node.place
+                entry = NodeEntry(path, place, settings={parameter: setting})
+                pending.append(_Overlay(_WITH, tuple(path.split("/")), entry))
+            else:
+                constants[key] = setting
+        self._check_input_names(scope, node, inner, constants)
+        if constants:
+            inner = copy.copy(inner)
+            inner.inputs = _with_defaults(inner.inputs, constants)
+        prefix = f"{scope.prefix}{node.name}/"
+        scope.graphs[node.name] = self._expand(
+            inner, prefix, scope, node.wires, [*pending, *below], (*chain, inner.path)
+        )
+
+    def _check_input_names(
+        self, scope: Scope, node: NodeEntry, inner: Document, constants: Mapping[str, Setting]
+    ) -> None:
+        for port, place in [
+            *((p, w.place) for p, w in node.wires.items()),
+            *((k, s.place) for k, s in constants.items()),
+        ]:
+            if port not in inner.inputs:
+                self._problem(
+                    f"graph {node.name!r} ({inner.path and inner.path.name}) has no input {port!r} "
+                    f"(it has {', '.join(inner.inputs) or 'none'})",
+                    place,
+                    nearest_names(port, inner.inputs),
+                )
+        for name, entry in inner.inputs.items():
+            if name not in node.wires and name not in constants and entry.default is None:
+                self._problem(f"input {name!r} of graph {scope.prefix + node.name!r} is not connected", node.place)
+
+    def _declare_inputs(self, scope: Scope) -> None:
+        """Inputs of the whole graph: the top file's, and inner ones left at their default."""
+        for name, entry in scope.document.inputs.items():
+            wire = scope.wires.get(name)
+            if wire is None or wire.names is None:
+                self._inputs[scope.prefix + name] = entry
+
+    def _unknown_node(self, overlay: _Overlay, prefix: str, nodes: Mapping[str, NodeEntry]) -> None:
+        name = "/".join(overlay.path)
+        known = [*nodes, *self._nodes]
+        self._problem(f"no node {prefix + name!r} in this graph", overlay.entry.place, nearest_names(name, known))
+
+    # --- references -------------------------------------------------------------------------------
+
+    def _resolve_all(self, top: Scope) -> dict[str, Target]:
+        stack = [top]
+        while stack:
+            scope = stack.pop()
+            stack.extend(scope.graphs.values())
+            for name, node in scope.document.nodes.items():
+                flat = self._nodes.get(scope.prefix + name)
+                if flat is None or node.removed:
+                    continue
+                for port, wire in node.wires.items():
+                    if wire.names is not None:
+                        targets, is_list = self._resolve_wire(scope, wire)
+                        flat.wires[port] = FlatWire(targets, is_list, wire.place)
+        outputs = {}
+        for name, setting in top.document.outputs.items():
+            found = self._resolve(top, setting.value, setting.place, 0)
+            if found is not None and len(found[0]) == 1:
+                outputs[name] = found[0][0]
+            elif found is not None:
+                self._problem(f"output {name!r} is a list of wires; join them in a node", setting.place)
+        return outputs
+
+    def _resolve_wire(self, scope: Scope, wire: Wire) -> tuple[tuple[Target, ...], bool]:
+        targets: list[Target] = []
+        is_list = wire.is_list
+        for name in wire.names or ():
+            found = self._resolve(scope, name, wire.place, 0)
+            if found is not None:
+                targets += found[0]
+                is_list = is_list or found[1]
+        return tuple(targets), is_list
+
+    def _resolve(self, scope: Scope, text: str, place: Place | None, depth: int) -> tuple[tuple[Target, ...], bool] | None:
+        """What a reference means in a scope: targets in the flat graph, and whether they form a list."""
+        if depth > 4 * MAX_NESTING:
+            self._problem(f"{text!r} leads back to itself through nested graphs", place)
+            return None
+        head, *fields = text.split(".")
+        if "/" in head:
+            first, rest = head.split("/", 1)
+            if first in scope.graphs:
+                return self._resolve(scope.graphs[first], ".".join((rest, *fields)), place, depth + 1)
+            self._unknown_reference(scope, text, place)
+            return None
+        if head in scope.graphs:
+            return self._resolve_output(scope.graphs[head], head, fields, place, depth)
+        entry = scope.document.nodes.get(head)
+        if entry is not None and not entry.removed:
+            return (Target(scope.prefix + head, tuple(fields)),), False
+        if head in scope.document.inputs:
+            wire = scope.wires.get(head)
+            if wire is None or wire.names is None or scope.parent is None:
+                return (Target(scope.prefix + head, tuple(fields)),), False
+            found: list[Target] = []
+            is_list = wire.is_list
+            for name in wire.names:
+                outer = self._resolve(scope.parent, name, wire.place, depth + 1)
+                if outer is None:
+                    return None
+                found += [Target(t.name, (*t.fields, *fields)) for t in outer[0]]
+                is_list = is_list or outer[1]
+            return tuple(found), is_list
+        self._unknown_reference(scope, text, place)
+        return None
+
+    def _resolve_output(
+        self, graph: Scope, name: str, fields: list[str], place: Place | None, depth: int
+    ) -> tuple[tuple[Target, ...], bool] | None:
+        offered = graph.document.outputs
+        if not fields and len(offered) == 1:
+            fields = list(offered)
+        if not fields or fields[0] not in offered:
+            wanted = f"no output {fields[0]!r}" if fields else "several outputs, name one"
+            nearest = nearest_names(fields[0], offered) if fields else []
+            self._problem(f"graph {name!r} has {wanted} (it has {', '.join(offered)})", place, nearest)
+            return None
+        inner = self._resolve(graph, offered[fields[0]].value, offered[fields[0]].place, depth + 1)
+        if inner is None:
+            return None
+        return tuple(Target(t.name, (*t.fields, *fields[1:])) for t in inner[0]), inner[1]
+
+    def _unknown_reference(self, scope: Scope, text: str, place: Place | None) -> None:
+        head = text.split(".")[0]
+        known = [*scope.document.inputs, *(n for n, e in scope.document.nodes.items() if not e.removed)]
+        self._problem(f"no node or input {head!r} in this graph", place, nearest_names(head, known))
+
+    def _problem(self, message: str, place: Place | None, nearest: Sequence[str] = ()) -> None:
+        self._problems.append(Problem(message, place, tuple(nearest)))
+
+
+def _copy(entry: NodeEntry) -> NodeEntry:
+    copied = copy.copy(entry)
+    copied.wires, copied.settings = dict(entry.wires), dict(entry.settings)
+    return copied
+
+
+def _lay_over(node: NodeEntry, overlay: NodeEntry) -> set[str]:
+    """Lay a partial node over a node; the names of ports and parameters that now belong to a replaced operator."""
+    carried: set[str] = set()
+    if overlay.removed:
+        node.removed = True
+        return carried
+    if overlay.use is not None and (node.use is None or overlay.use.value != node.use.value):
+        carried = {*node.wires, *node.settings} - {*overlay.wires, *overlay.settings}
+        node.use = overlay.use
+    node.wires |= overlay.wires
+    node.settings |= overlay.settings
+    return carried
+
+
+def _with_defaults(inputs: Mapping[str, InputEntry], constants: Mapping[str, Setting]) -> dict[str, InputEntry]:
+    changed = {name: copy.copy(entry) for name, entry in inputs.items()}
+    for name, setting in constants.items():
+        if name in changed:
+            changed[name].default = setting
+    return changed
+
+
+def read_flag(text: str, flag: str) -> tuple[str, Any]:
+    """ "node.parameter=value" of a `--set` or `--replace` flag; the value is a YAML scalar or flow value.
+
+    Raises:
+        DocumentError: there is no "=", or the value is not YAML.
+    """
+    key, equals, value = text.partition("=")
+    place = Place(Source(flag, text), 1, 1)
+    if not equals or not all(NAME.fullmatch(part) for part in key.replace("/", ".").split(".")):
+        raise DocumentError([Problem(f"expected name=value, got {text!r}", place)])
+    if value[:1] in ("[", "{"):
+        tree, problems = parse(Source(flag, f"value: {value}"))
+        if problems:
+            raise DocumentError(problems)
+        return key, tree["value"]
+    return key, scalar(value)

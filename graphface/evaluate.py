@@ -1,0 +1,404 @@
+"""Evaluation: from the outputs asked for, backwards to what they need and no further.
+
+A slot is *demanded* when something needs its value. Demanding looks it up first; only on a miss are its own inputs
+demanded, so a memoized output costs one lookup whatever stands behind it. A step whose inputs have arrived is ready; a
+step with lazy ports is then asked by its `needs` rule which of them it wants, and only those are demanded. Ready steps
+run inline or on a pool of threads: the bookkeeping is the same and stays on the calling thread, so results, order of
+records within a branch and what is memoized do not depend on the number of threads.
+
+Depth-first demand with a stack (no recursion: graphs may be 100,000 nodes deep) was chosen over walking a precomputed
+plan because lazy ports make the needed set depend on values; `graphface.plan` predicts it with the same rules.
+
+A value is let go when its last consumer in the run is done; what the memory tier keeps is that tier's affair.
+"""
+
+from __future__ import annotations
+
+import queue
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+from graphface import fallback
+from graphface.cache.memory import MISSING, MemoryTier
+from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError, RunFailed, UsageError
+from graphface.frozen import describe, first_non_finite, freeze
+from graphface.needs import declined_with
+from graphface.observe import Observer, Record, State, hooks
+from graphface.wiring import Argument, Ref, Step
+
+if TYPE_CHECKING:
+    from graphface.cache.disk import DiskTier
+    from graphface.graph import Graph
+    from graphface.inputs import Bound
+
+Guard = Literal["off", "warn", "error"]
+_Outcome = tuple[Any, NodeError | UsageError | None, float, float, tuple[str, ...]]
+"""Value, error, wall seconds, seconds of CPU, warnings."""
+
+
+@dataclass(eq=False)
+class Result(Mapping[str, Any]):
+    """The outputs of a run by name, and the `records` of every node it touched."""
+
+    values: dict[str, Any]
+    records: list[Record] = field(default_factory=list, repr=False)
+
+    def __getitem__(self, name: str) -> Any:
+        return self.values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What nodes fell back on, as "node: sentence"."""
+        return [f"{r.name}: {w}" for r in self.records for w in r.warnings]
+
+
+class Evaluator:
+    """Evaluates graphs, keeping what it computed.
+
+    Args:
+        memory: the memory tier; None memoizes nothing beyond one run.
+        disk: a disk tier to look into and to fill.
+        threads: how many nodes may run at once.
+        guard: what to do about NaN and infinity in a node's output.
+        observers: see `graphface.observe`.
+    """
+
+    def __init__(
+        self,
+        *,
+        memory: MemoryTier | None = None,
+        disk: DiskTier | None = None,
+        threads: int = 1,
+        guard: Guard = "error",
+        observers: Sequence[Observer] = (),
+    ) -> None:
+        self.memory = memory
+        self.disk = disk
+        self.threads = max(1, threads)
+        self.guard = guard
+        self.observers = tuple(observers)
+        self.finite: dict[int, Any] = {}
+
+    def run(self, graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]) -> Result:
+        """The values of `targets`.
+
+        Raises:
+            InputError: an input that is needed was not given.
+            RunFailed: a node failed; outputs that did not need it are in its `finished`.
+            KeyboardInterrupt: between nodes; what was computed stays memoized.
+        """
+        return _Run(self, graph, bound, targets).go()
+
+    def find(self, key: bytes, step: Step | None) -> tuple[Any, State]:
+        """A memoized value and the tier that had it, or `MISSING`."""
+        if self.memory is not None:
+            value = self.memory.get(key)
+            if value is not MISSING:
+                return value, "memory"
+        if self.disk is not None and step is not None:
+            value = self.disk.get(key, step.operator.output_annotation)
+            if value is not MISSING:
+                arrays = freeze(value)
+                if self.memory is not None:
+                    self.memory.put(key, value, self.disk.cost(key), arrays)
+                return value, "disk"
+        return MISSING, "ran"
+
+
+class _Run:
+    """One evaluation. All state is by key, so that equal nodes of a graph are one."""
+
+    def __init__(
+        self, evaluator: Evaluator, graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]
+    ) -> None:
+        self._evaluator = evaluator
+        self._graph = graph
+        self._first = len(graph.inputs)
+        self._bound = [bound.get(name) for name in graph.inputs]
+        self._lent: set[int] = set().union(*(b.borrowed for b in self._bound if b is not None))
+        self._keys = graph.keys(bound)
+        self._targets = targets
+        self._kept = {self._keys[ref.slot] for ref in targets.values()}
+        self._slots: dict[bytes, int] = {}
+        self._done: dict[bytes, Any] = {}
+        self._waiting: dict[bytes, int] = {}
+        self._dependents: dict[bytes, list[bytes]] = {}
+        self._consumers: dict[bytes, int] = {}
+        self._ready: list[bytes] = []
+        self._declined: dict[bytes, frozenset[str]] = {}
+        self._failed: dict[bytes, NodeError | None] = {}
+        self._records: list[Record] = []
+        self._on_start = hooks(evaluator.observers, "node_started")
+        self._on_finish = hooks(evaluator.observers, "node_finished")
+
+    def go(self) -> Result:
+        for hook in hooks(self._evaluator.observers, "run_started"):
+            hook(self._graph.names_behind(self._targets.values()))
+        try:
+            self._demand([ref.slot for ref in self._targets.values()])
+            if self._evaluator.threads == 1:
+                self._loop_inline()
+            else:
+                self._loop_threads()
+        finally:
+            for hook in hooks(self._evaluator.observers, "run_finished"):
+                hook(self._records)
+        values = {}
+        for name, ref in self._targets.items():
+            key = self._keys[ref.slot]
+            if key in self._done:
+                values[name] = _take(self._done[key], ref.fields)
+        failures = [f for f in self._failed.values() if f is not None]
+        if failures:
+            raise RunFailed(failures, values)
+        return Result(values, self._records)
+
+    # --- demand -----------------------------------------------------------------------------------
+
+    def _demand(self, slots: Sequence[int]) -> None:
+        """See to it that slots get their values: look each up, or demand what it needs."""
+        keys, demanded, find, first, steps = self._keys, self._slots, self._evaluator.find, self._first, self._graph.steps
+        stack = list(slots)
+        while stack:
+            slot = stack.pop()
+            key = keys[slot]
+            if key in demanded:
+                continue
+            demanded[key] = slot
+            step = steps[slot - first] if slot >= first else None
+            value, tier = find(key, step)
+            if value is not MISSING:
+                self._done[key] = value
+                self._report(Record(self._name(slot), _operator_name(step), tier, key), step, value)
+                self._arrived(key)
+            elif step is None:
+                self._ready.append(key)
+            else:
+                for parent in (*step.eager, *step.lazy):
+                    self._consumers[keys[parent]] = self._consumers.get(keys[parent], 0) + 1
+                self._await(key, step.eager)
+                stack.extend(step.eager)
+
+    def _await(self, key: bytes, above: Sequence[int]) -> None:
+        """Make a step ready once every slot above it has its value."""
+        missing = 0
+        for slot in above:
+            parent = self._keys[slot]
+            if parent in self._done:
+                continue
+            if parent in self._failed:
+                self._fail(key, None)
+                return
+            self._dependents.setdefault(parent, []).append(key)
+            missing += 1
+        self._waiting[key] = missing
+        if missing == 0:
+            self._inputs_arrived(key)
+
+    def _arrived(self, key: bytes) -> None:
+        """A value is there: tell the steps that wait for it."""
+        waiting = self._waiting
+        for dependent in self._dependents.pop(key, ()):
+            if dependent in waiting:
+                waiting[dependent] -= 1
+                if waiting[dependent] == 0:
+                    self._inputs_arrived(dependent)
+
+    def _inputs_arrived(self, key: bytes) -> None:
+        """All inputs demanded so far are there: ask about the lazy ones, or queue the step."""
+        step = self._step(key)
+        if not step.lazy or key in self._declined:
+            self._ready.append(key)
+            return
+        try:
+            declined = self._ask(step)
+        except Exception as error:
+            self._fail(key, self._node_error(step, error, {}))
+            return
+        self._declined[key] = frozenset(declined)
+        for port, reason in declined.items():
+            self._report(Record(f"{step.name}.{port}", step.operator.name, "declined", key, reason=reason), step, None)
+        wanted = [r.slot for a in step.arguments if a.lazy and a.port not in declined for r in a.refs]
+        self._await(key, tuple(dict.fromkeys(wanted)))
+        self._demand(wanted)
+
+    def _ask(self, step: Step) -> Mapping[str, str]:
+        known = self._graph.decisions.get(step.slot)
+        if known is not None:
+            return known
+        return declined_with(step, {a.port: self._argument(a) for a in step.arguments if not a.lazy})
+
+    # --- loops ------------------------------------------------------------------------------------
+
+    def _loop_inline(self) -> None:
+        ready = self._ready
+        while ready:
+            key = ready.pop()
+            self._finish(key, self._evaluate(key))
+
+    def _loop_threads(self) -> None:
+        threads = self._evaluator.threads
+        finished: queue.SimpleQueue[tuple[bytes, _Outcome]] = queue.SimpleQueue()
+        running = 0
+
+        def work(key: bytes) -> None:
+            finished.put((key, self._evaluate(key)))
+
+        with ThreadPoolExecutor(threads, thread_name_prefix="graphface") as pool:
+            while self._ready or running:
+                while self._ready and running < threads:
+                    pool.submit(work, self._ready.pop())
+                    running += 1
+                key, outcome = finished.get()
+                running -= 1
+                self._finish(key, outcome)
+
+    # --- one node, on any thread ------------------------------------------------------------------
+
+    def _evaluate(self, key: bytes) -> _Outcome:
+        """Run one step or load one input."""
+        slot = self._slots[key]
+        step = self._graph.steps[slot - self._first] if slot >= self._first else None
+        for hook in self._on_start:
+            hook(self._name(slot), step)
+        said: list[str] = []
+        token = fallback.collector.set(said)
+        value, error = None, None
+        cpu, start = time.thread_time(), time.perf_counter()
+        try:
+            value = self._load(slot) if step is None else self._call(step, key)
+        except (NodeError, UsageError) as caught:
+            error = caught
+        seconds, cpu = time.perf_counter() - start, time.thread_time() - cpu
+        fallback.collector.reset(token)
+        return value, error, seconds, cpu, tuple(said)
+
+    def _load(self, slot: int) -> Any:
+        bound = self._bound[slot]
+        if bound is None:
+            name = self._name(slot)
+            raise InputError(name, f"this input ({self._graph.inputs[name].type}) is needed and was not given")
+        return bound.value
+
+    def _call(self, step: Step, key: bytes) -> Any:
+        declined = self._declined.get(key, ())
+        arguments = {a.port: None if a.port in declined else self._argument(a) for a in step.arguments}
+        try:
+            value = step.operator.function(**arguments, **step.parameters)
+        except Exception as error:
+            raise self._node_error(step, error, arguments) from error
+        if type(value) not in step.operator.plain_outputs:
+            problem = step.operator.output.problem(value)
+            if problem is not None:
+                raise self._node_error(step, TypeError(f"returned something else: {problem}"), arguments)
+        if self._evaluator.guard != "off":
+            found = first_non_finite(value, self._evaluator.finite)
+            if found is not None:
+                self._not_finite(step, found, arguments)
+        return value
+
+    def _argument(self, argument: Argument) -> Any:
+        done, keys = self._done, self._keys
+        if argument.is_list:
+            return [_take(done[keys[r.slot]], r.fields) for r in argument.refs]
+        ref = argument.refs[0]
+        value = done[keys[ref.slot]]
+        return _take(value, ref.fields) if ref.fields else value
+
+    def _not_finite(self, step: Step, found: str, arguments: Mapping[str, Any]) -> None:
+        if self._evaluator.guard == "warn":
+            fallback.warn(f"its output {found}")
+            return
+        shown = {port: describe(value) for port, value in arguments.items()}
+        raise NonFiniteError(step.name, step.operator.name, step.place, f"its output {found}", shown)
+
+    def _node_error(self, step: Step, error: Exception, arguments: Mapping[str, Any]) -> NodeError:
+        reason = str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"
+        shown = {port: describe(value) for port, value in arguments.items()}
+        failure = NodeError(step.name, step.operator.name, step.place, reason, shown)
+        failure.__cause__ = error
+        return failure
+
+    # --- bookkeeping, on the calling thread -------------------------------------------------------
+
+    def _finish(self, key: bytes, outcome: _Outcome) -> None:
+        value, error, seconds, cpu, said = outcome
+        if isinstance(error, UsageError):
+            raise error
+        slot = self._slots[key]
+        step = self._graph.steps[slot - self._first] if slot >= self._first else None
+        if error is not None:
+            self._fail(key, error, seconds)
+            return
+        arrays = freeze(value, self._lent)
+        self._done[key] = value
+        self._keep(key, step, value, seconds, arrays)
+        size = sum([a.nbytes for a in arrays]) if arrays else 0
+        record = Record(self._name(slot), _operator_name(step), "ran", key, seconds, cpu, size, "", said)
+        self._report(record, step, value)
+        self._arrived(key)
+        if step is not None:
+            self._release(step)
+
+    def _keep(self, key: bytes, step: Step | None, value: Any, seconds: float, arrays: tuple[Any, ...]) -> None:
+        if self._lent and any(id(a) in self._lent for a in arrays):
+            return
+        evaluator = self._evaluator
+        if evaluator.memory is not None:
+            evaluator.memory.put(key, value, seconds, arrays)
+        if evaluator.disk is not None and step is not None:
+            evaluator.disk.put(key, value, cost_seconds=seconds, meta={"operator": step.operator.name})
+
+    def _release(self, step: Step) -> None:
+        """Let go of values that no step of this run waits for any more; demanding one again looks it up again."""
+        consumers, keys = self._consumers, self._keys
+        for slot in (*step.eager, *step.lazy) if step.lazy else step.eager:
+            key = keys[slot]
+            consumers[key] -= 1
+            if consumers[key] == 0 and key not in self._kept and key in self._done:
+                del self._done[key], self._slots[key]
+
+    def _fail(self, key: bytes, error: NodeError | None, seconds: float = 0.0) -> None:
+        """Note a failure and everything below that it blocks."""
+        stack: list[tuple[bytes, NodeError | None]] = [(key, error)]
+        while stack:
+            current, failure = stack.pop()
+            if current in self._failed:
+                continue
+            self._failed[current] = failure
+            self._waiting.pop(current, None)
+            step = self._step(current)
+            state: State = "failed" if failure is not None else "blocked"
+            reason = failure.reason if failure is not None else ""
+            self._report(Record(step.name, step.operator.name, state, current, seconds, reason=reason), step, None)
+            stack.extend((dependent, None) for dependent in self._dependents.pop(current, ()))
+
+    def _report(self, record: Record, step: Step | None, value: Any) -> None:
+        self._records.append(record)
+        for hook in self._on_finish:
+            hook(record, step, value)
+
+    def _step(self, key: bytes) -> Step:
+        return self._graph.steps[self._slots[key] - self._first]
+
+    def _name(self, slot: int) -> str:
+        return self._graph.steps[slot - self._first].name if slot >= self._first else self._graph.input_names[slot]
+
+
+def _operator_name(step: Step | None) -> str:
+    return step.operator.name if step is not None else "input"
+
+
+def _take(value: Any, fields: Sequence[str]) -> Any:
+    for name in fields:
+        value = getattr(value, name)
+    return value

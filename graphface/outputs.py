@@ -1,0 +1,103 @@
+"""Results to files: by the type's own writer, or as plain arrays.
+
+A file appears whole or not at all: it is written beside its place under another name and then renamed.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from graphface.errors import UnwritableFile
+from graphface.frozen import arrays_in
+from graphface.values import ArrayType, PortType
+
+
+def write_output(value: Any, declared: PortType, path: Path) -> None:
+    """Write a value as the suffix says: .npy (an array), .npz (every array in it), else what its type can write.
+
+    Raises:
+        UnwritableFile: the folder is missing or read-only, or the type cannot be written as that.
+    """
+    if path.suffix == ".npy" and isinstance(value, np.ndarray):
+        _write_with(path, lambda beside: np.save(beside, value, allow_pickle=False))
+    elif path.suffix == ".npz":
+        named = {name or "value": array for name, array in arrays_in(value)}
+        if not named:
+            raise UnwritableFile(path, f"a {type(value).__name__} holds no array")
+        _write_with(path, lambda beside: np.savez(beside, **named))
+    else:
+        writer = _writer(value, declared)
+        if writer is None:
+            raise UnwritableFile(path, f"a {type(value).__name__} can only be written as .npz")
+        try:
+            writer(value, path)
+        except OSError as error:
+            raise UnwritableFile(path, error.strerror or str(error)) from None
+
+
+def check_folder(path: Path) -> None:
+    """See before anything runs that a result could be written there.
+
+    Raises:
+        UnwritableFile: the folder is missing or read-only, or the path is a folder.
+    """
+    folder = path.parent
+    if path.is_dir():
+        raise UnwritableFile(path, "is a folder; name a file in it")
+    if not folder.is_dir():
+        raise UnwritableFile(path, f"there is no folder {str(folder)!r}")
+    try:
+        handle, name = tempfile.mkstemp(prefix=".graphface-", dir=folder)
+    except OSError as error:
+        raise UnwritableFile(path, f"cannot write into the folder: {error.strerror}") from None
+    os.close(handle)
+    os.unlink(name)
+
+
+@contextmanager
+def beside(path: Path) -> Iterator[Path]:
+    """A temporary path in the same folder that takes the place of `path` when the block succeeds.
+
+    Raises:
+        UnwritableFile: the folder cannot be written to.
+    """
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    except OSError as error:
+        raise UnwritableFile(path, f"cannot write into the folder: {error.strerror}") from None
+    os.close(handle)
+    try:
+        yield Path(name)
+        os.chmod(name, 0o666 & ~_umask())
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def _write_with(path: Path, write: Callable[[Path], None]) -> None:
+    try:
+        with beside(path) as temporary:
+            write(temporary)
+    except OSError as error:
+        raise UnwritableFile(path, error.strerror or str(error)) from None
+
+
+def _writer(value: Any, declared: PortType) -> Callable[[Any, Path], None] | None:
+    for atom in declared.alternatives:
+        if isinstance(atom, ArrayType) and atom.to_file is not None and atom.problem(value) is None:
+            return atom.to_file
+    return getattr(type(value), "to_file", None)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,155 @@
+"""What the command line shows: tables, a progress bar, warnings. Results go to standard output, the rest to the other."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from graphface.evaluate import Result
+from graphface.node import Operator
+from graphface.observe import Observer, Record
+from graphface.plan import Planned
+from graphface.wiring import Step
+
+_FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yellow", "skipped": "dim"}
+
+
+class ProgressBar(Observer):
+    """A bar of nodes done, naming the one that runs; silent where standard error is not a terminal."""
+
+    def __init__(self, title: str = "") -> None:
+        columns = (TextColumn("{task.description:28}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+        self._progress = Progress(
+            *columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()
+        )
+        self._title = title
+        self._task: Any = None
+
+    def __enter__(self) -> ProgressBar:
+        self._progress.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._progress.stop()
+
+    def run_started(self, names: Sequence[str]) -> None:
+        if self._task is not None:
+            self._progress.remove_task(self._task)
+        self._task = self._progress.add_task(self._title, total=len(names))
+
+    def node_started(self, name: str, step: Step | None) -> None:
+        if self._task is not None:
+            self._progress.update(self._task, description=f"{self._title} {name}".strip())
+
+    def node_finished(self, record: Record, step: Step | None, value: Any) -> None:
+        if self._task is not None and step is not None:
+            self._progress.advance(self._task)
+
+
+def print_times(records: Sequence[Record], title: str = "") -> None:
+    """Time per node, slowest first, with its share."""
+    ran = sorted((r for r in records if r.state == "ran"), key=lambda r: -r.seconds)
+    total = sum(r.seconds for r in ran) or 1.0
+    table = _table("node", "operator", ">ms", ">share", title=title)
+    for record in ran:
+        share = f"{record.seconds / total:.0%}"
+        table.add_row(record.name, record.operator, f"{record.seconds * 1e3:.1f}", share)
+    table.add_row("sum", "", f"{total * 1e3:.1f}", "", style="bold")
+    _console().print(table)
+
+
+def print_plan(planned: Sequence[Planned]) -> None:
+    table = _table("node", "operator", "fate", "key", "why")
+    for entry in planned:
+        style = _FATE_STYLES[entry.fate]
+        table.add_row(entry.name, entry.operator, f"[{style}]{entry.fate}[/]", entry.key, entry.reason)
+    _console().print(table)
+
+
+def print_operators(operators: Sequence[Operator]) -> None:
+    table = _table("operator", "takes", "gives", "")
+    for operator in operators:
+        takes = ", ".join(operator.inputs)
+        table.add_row(operator.name, takes, str(operator.output), operator.doc.partition("\n")[0])
+    _console().print(table)
+
+
+def print_operator(operator: Operator, alternatives: Sequence[str]) -> None:
+    console = _console()
+    console.print(f"[bold]{operator.name}[/bold] -> {operator.output}")
+    console.print(operator.doc, markup=False, highlight=False)
+    ports = _table("port", "type", "")
+    for port in operator.inputs.values():
+        kind = "lazy" if port.lazy else "" if port.required else "optional"
+        ports.add_row(port.name, str(port.type), kind)
+    if operator.inputs:
+        console.print(ports)
+    if operator.outputs:
+        fields = _table("output", "type")
+        for name, declared in operator.outputs.items():
+            fields.add_row(f".{name}", str(declared))
+        console.print(fields)
+    _print_parameters(console, operator)
+    if alternatives:
+        console.print(f"may be replaced by: {', '.join(alternatives)}", highlight=False)
+
+
+def print_warnings(result: Result) -> None:
+    console = Console(stderr=True)
+    for warning in result.warnings:
+        console.print(f"warning: {warning}", style="yellow", markup=False, highlight=False, soft_wrap=True)
+
+
+def print_assets(rows: Sequence[tuple[str, str, str]]) -> None:
+    table = _table("asset", ">size", "where")
+    for name, size, where in rows:
+        table.add_row(name, size, where)
+    _console().print(table)
+
+
+def _print_parameters(console: Console, operator: Operator) -> None:
+    schema = operator.parameters.model_json_schema()
+    properties = schema.get("properties", {})
+    if not properties:
+        return
+    table = _table("parameter", "type", "default", "allowed")
+    for name, described in properties.items():
+        table.add_row(name, _schema_type(described), str(described.get("default", "required")), _allowed(described))
+    console.print(table)
+
+
+def _schema_type(described: dict[str, Any]) -> str:
+    if "anyOf" in described:
+        return " | ".join(_schema_type(option) for option in described["anyOf"])
+    return str(described.get("type", "one of" if "enum" in described else "any"))
+
+
+def _allowed(described: dict[str, Any]) -> str:
+    if "enum" in described:
+        return ", ".join(str(v) for v in described["enum"])
+    signs = {"minimum": ">=", "exclusiveMinimum": ">", "maximum": "<=", "exclusiveMaximum": "<"}
+    limits = [f"{sign} {described[key]:g}" for key, sign in signs.items() if key in described]
+    options = [_allowed(option) for option in described.get("anyOf", ())]
+    return " or ".join(o for o in [", ".join(limits), *options] if o)
+
+
+def _table(*headers: str, title: str = "") -> Table:
+    """A plain table; a header beginning with ">" is right-aligned."""
+    table = Table(box=None, pad_edge=False, title=title or None, title_justify="left", header_style="bold")
+    for header in headers:
+        right = header.startswith(">")
+        table.add_column(header.lstrip(">"), justify="right" if right else "left", overflow="fold")
+    return table
+
+
+def _console() -> Console:
+    """Standard output; not wrapped to 80 columns where it is a file."""
+    return Console(width=None if sys.stdout.isatty() else 160)
