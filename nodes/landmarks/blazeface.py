@@ -9,16 +9,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Literal
+from typing import Any, Literal
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from graphface.assets import Asset
 from graphface.nodes.landmarks.network import run_network, sigmoid
 from graphface.nodes.landmarks.weights import BLAZEFACE, BLAZEFACE_FULL_RANGE
 from graphface.nodes.types import FloatArray
 
+Floats = NDArray[np.floating[Any]]
 Range = Literal["near", "far"]
 
 MERGE_OVERLAP = 0.3
@@ -114,7 +116,7 @@ def _anchors(grids: tuple[tuple[int, int], ...]) -> FloatArray:
     return np.concatenate(levels).astype(np.float32)
 
 
-def _merge(boxes: FloatArray, points: FloatArray, scores: FloatArray) -> list[Face]:
+def _merge(boxes: Floats, points: Floats, scores: Floats) -> list[Face]:
     """Groups of overlapping answers, best first, each replaced by its mean weighted with the scores."""
     left = list(np.argsort(-scores, kind="stable"))
     faces = []
@@ -124,12 +126,13 @@ def _merge(boxes: FloatArray, points: FloatArray, scores: FloatArray) -> list[Fa
         group = [i for i, o in zip(left, overlap, strict=True) if o > MERGE_OVERLAP or i == best]
         weights = scores[group] / max(float(scores[group].sum()), 1e-9)
         box = np.tensordot(weights, boxes[group], axes=1)
-        faces.append(Face(box, np.tensordot(weights, points[group], axes=1), float(scores[best])))
+        middle = np.tensordot(weights, points[group], axes=1)
+        faces.append(Face(box.astype(np.float32), middle.astype(np.float32), float(scores[best])))
         left = [i for i in left if i not in set(group)]
     return faces
 
 
-def _overlap(box: FloatArray, boxes: FloatArray) -> FloatArray:
+def _overlap(box: Floats, boxes: Floats) -> FloatArray:
     """Intersection over union of one box (4,) with each of (n, 4)."""
     low, high = np.maximum(box[:2], boxes[:, :2]), np.minimum(box[2:], boxes[:, 2:])
     common = np.prod(np.maximum(high - low, 0), axis=1)

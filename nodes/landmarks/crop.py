@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from graphface.nodes.types import FloatArray
 
@@ -30,7 +31,7 @@ class Crop:
             height, width = pixels.shape[:2]
             target = (max(1, round(width * scale)), max(1, round(height * scale)))
             ratio = np.array([target[0] / width, target[1] / height])
-            pixels = cv2.resize(pixels, target, interpolation=cv2.INTER_AREA)
+            pixels = np.asarray(cv2.resize(pixels, target, interpolation=cv2.INTER_AREA), dtype=np.float32)
         else:
             offset, ratio = np.zeros(2), np.ones(2)
         matrix = self._matrix(size)
@@ -47,8 +48,8 @@ class Crop:
         depth = -points[:, 2:] * (self.side / size)
         return np.concatenate([flat, depth], axis=1).astype(np.float32)
 
-    def _matrix(self, size: int) -> FloatArray:
-        """(2, 3) float64, from the pixel centres of the read crop to those of the picture."""
+    def _matrix(self, size: int) -> NDArray[np.float64]:
+        """(2, 3), from the pixel centres of the read crop to those of the picture."""
         scale = self.side / size
         cos, sin = np.cos(self.angle) * scale, np.sin(self.angle) * scale
         rotation = np.array([[cos, -sin], [sin, cos]])
@@ -56,7 +57,7 @@ class Crop:
         shift = np.array(self.center) - rotation @ (middle, middle)
         return np.concatenate([rotation, shift[:, None]], axis=1)
 
-    def _surroundings(self, pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _surroundings(self, pixels: FloatArray) -> tuple[FloatArray, NDArray[np.float64]]:
         """The part of the picture that the square can touch, and the pixel at its corner."""
         reach = self.side / np.sqrt(2) + 2
         height, width = pixels.shape[:2]

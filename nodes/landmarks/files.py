@@ -49,7 +49,7 @@ def write_landmarks(landmarks: Landmarks, path: Path) -> None:
     """
     path = Path(path)
     suffix = path.suffix.lower()
-    rows = [[f"{v:.9g}" for v in row] for row in landmarks.points + (1, 1, 0) * np.float32(suffix == ".pts")]
+    rows = [[f"{v:.9g}" for v in row] for row in landmarks.points + np.array([1, 1, 0]) * (suffix == ".pts")]
     try:
         if suffix == ".npy":
             np.save(path, landmarks.points)

@@ -40,5 +40,5 @@ def given(photo: Image, points: Landmarks) -> Landmarks:
     if points.interocular < 1:
         raise UnusableLandmarks("the eyes are less than a pixel apart")
     if inside.mean() < 0.5:
-        warn(f"only {inside.sum()} of {len(inside)} given points lie in the photo")
+        warn(f"only {inside.sum()} of {len(flat)} given points lie in the photo")
     return points

@@ -103,14 +103,14 @@ def _shrunk(pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
     x, y = width / size[0], height / size[1]
     matrix = np.array([[x, 0, x / 2 - 0.5], [0, y, y / 2 - 0.5]], np.float32)
-    return cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), matrix
+    return np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), dtype=np.float32), matrix
 
 
 def _padded(pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
     """A border of half the longer side, in black: the frame of a tight crop looks like a photograph of a head."""
     border = max(pixels.shape[:2]) // 2
     padded = cv2.copyMakeBorder(pixels, border, border, border, border, cv2.BORDER_CONSTANT)
-    return padded, np.array([[1, 0, -border], [0, 1, -border]], np.float32)
+    return np.asarray(padded, dtype=np.float32), np.array([[1, 0, -border], [0, 1, -border]], np.float32)
 
 
 def _tiles(pixels: FloatArray, matrix: FloatArray, count: int) -> Iterator[View]:
@@ -137,7 +137,7 @@ def _turned(pixels: FloatArray, turn: int) -> tuple[FloatArray, FloatArray]:
         cv2.ROTATE_90_CLOCKWISE: [[0, 1, 0], [-1, 0, height - 1]],
         cv2.ROTATE_180: [[-1, 0, width - 1], [0, -1, height - 1]],
     }[turn]
-    return cv2.rotate(pixels, turn), np.array(matrix, np.float32)
+    return np.asarray(cv2.rotate(pixels, turn), dtype=np.float32), np.array(matrix, np.float32)
 
 
 def _after(outer: FloatArray, inner: FloatArray) -> FloatArray:
