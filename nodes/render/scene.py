@@ -53,13 +53,15 @@ class DirectionalLight(_Light):
     """A light so far away that it shines in parallel; a surface facing it gets irradiance `intensity`.
 
     Azimuth, in degrees: 0 is where the viewer stands, positive to the picture's right. Elevation: positive from above. Or give
-    `direction`, a vector towards the light in the camera frame (x right, y up, z towards the viewer).
+    `direction`, a vector towards the light in the camera frame (x right, y up, z towards the viewer). `size` is the angle
+    from the light's middle to its edge: a large light wraps around the face, a small one ends in a hard line.
     """
 
     type: Literal["directional"] = "directional"
     azimuth: Annotated[float, Field(ge=-360, le=360)] = 0.0
     elevation: Annotated[float, Field(ge=-90, le=90)] = 0.0
     direction: tuple[float, float, float] | None = None
+    size: Annotated[float, Field(ge=0, le=90)] = 15.0
 
     @model_validator(mode="after")
     def _one_direction(self) -> DirectionalLight:

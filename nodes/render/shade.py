@@ -77,9 +77,20 @@ def irradiance(scene: Scene, normals: NDArray[np.float32]) -> FloatArray:
             order = round(float(np.sqrt(len(light.values)))) - 1
             received = np.maximum(basis(normals, order) @ light.values, 0)
         else:
-            received = np.maximum(normals @ light.towards, 0)
+            received = _wrapped_cosine(normals @ light.towards, np.sin(np.radians(light.size)))
         total += received[:, None] * light.radiance[:channels]
     return total if scene.colored else total[:, 0]
+
+
+def _wrapped_cosine(cosine: FloatArray, reach: float) -> FloatArray:
+    """Lambert's max(0, cos) for a light of some size: rounded where the surface hides a part of the light.
+
+    Within `reach` (the sine of the light's angle) of grazing, a parabola that meets 0 and the cosine without a kink. At
+    grazing it gives a quarter of `reach`; a uniform disc gives 2 / (3 pi) of it, nearly the same.
+    """
+    reach = max(float(reach), 1e-4)
+    partly = np.square(np.maximum(cosine + np.float32(reach), 0)) / np.float32(4 * reach)
+    return np.where(cosine < reach, partly, cosine)
 
 
 def _mean(irradiances: FloatArray, weights: FloatArray) -> float:
