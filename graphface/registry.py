@@ -146,6 +146,10 @@ class Registry:
                 found += _attribute(pack.assets)
         return found
 
+    def type_classes(self) -> list[Any]:
+        """What the packs' type names stand for."""
+        return [_attribute(where) for pack in self._packs for where in pack.types.values()]
+
     def _named_type(self, name: str) -> PortType:
         if name == "Any":
             return ANY

@@ -11,13 +11,13 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from graphface.evaluate import Result
+from graphface.explain import Explained
 from graphface.node import Operator
 from graphface.observe import Observer, Record
 from graphface.plan import Planned
 from graphface.wiring import Step
 
-_FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yellow", "skipped": "dim"}
+_FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yellow", "skipped": "dim", "ran": "green"}
 
 
 class ProgressBar(Observer):
@@ -102,9 +102,20 @@ def print_operator(operator: Operator, alternatives: Sequence[str]) -> None:
         console.print(f"may be replaced by: {', '.join(alternatives)}", highlight=False)
 
 
-def print_warnings(result: Result) -> None:
+def print_explained(explained: Sequence[Explained]) -> None:
+    table = _table("node", "operator", "fate", ">ms", ">MB", "key", "why")
+    for entry in explained:
+        style = _FATE_STYLES.get(entry.fate, "")
+        fate = f"[{style}]{entry.fate}[/]" if style else entry.fate
+        ms = f"{entry.milliseconds:.1f}" if entry.milliseconds is not None else ""
+        size = f"{entry.bytes / 1e6:.2f}" if entry.bytes else ""
+        table.add_row(entry.name, entry.operator, fate, ms, size, entry.key, entry.reason)
+    _console().print(table)
+
+
+def print_warnings(warnings: Sequence[str]) -> None:
     console = Console(stderr=True)
-    for warning in result.warnings:
+    for warning in warnings:
         console.print(f"warning: {warning}", style="yellow", markup=False, highlight=False, soft_wrap=True)
 
 

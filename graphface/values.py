@@ -9,9 +9,10 @@ To a type checker and in a notebook a `Mask` stays a plain NumPy array; to the e
 when a graph is wired and again when a value passes. Wrapping each map in a class was tried on paper and rejected:
 every operator would begin and end by unwrapping.
 
-A class or an `ArrayType` may teach the engine three things, all optional:
+A class or an `ArrayType` may teach the engine some things, all optional:
 
-- `from_file(path)` reads a graph input, `to_file(value, path)` writes a graph output;
+- `from_file(path)` reads a graph input, `to_file(value, path)` writes a graph output; where it also takes `text=`, a
+  mapping of words to keep inside the file, results carry their provenance, and `text_in_file(path)` reads it back;
 - `coerce(object)` accepts what people have at hand in a notebook (an array for an image);
 - `picture(value)` draws the value as uint8, H x W x 3, for debugging.
 """

@@ -150,7 +150,7 @@ class _Decoder:
             if data is None or isinstance(data, bool | int | float | str):
                 return data
             raise CodecError("malformed structure", where)
-        tag = next(iter(data))
+        tag = next(iter(data), "")
         if tag == "array":
             return self._array(data)
         if tag == "scalar":

@@ -81,15 +81,21 @@ class Source:
         counts = [name for s in self._statements for name in s.binds]
         return {name: value for name, value in values.items() if counts.count(name) == 1}
 
+    def holds(self, code: CodeType, name: str | None = None) -> bool:
+        """Whether the file has this code, under its own qualified name or, for a function it defines, as `name`."""
+        defined = name if name in self._functions else code.co_qualname
+        return read_code(code).digest in self._functions.get(defined or "", ())
+
     @cached_property
-    def code_digests(self) -> frozenset[bytes]:
-        """The content of every function in the file."""
-        pending, found = [compile(self._text, str(self.path), "exec", dont_inherit=True)], set()
+    def _functions(self) -> dict[str, set[bytes]]:
+        """The content of every function in the file, by qualified name."""
+        pending = [compile(self._text, str(self.path), "exec", dont_inherit=True)]
+        found: dict[str, set[bytes]] = {}
         while pending:
             code = pending.pop()
-            found.add(read_code(code).digest)
+            found.setdefault(code.co_qualname, set()).add(read_code(code).digest)
             pending.extend(constant for constant in code.co_consts if isinstance(constant, CodeType))
-        return frozenset(found)
+        return found
 
     def _cut(self, name: str | None) -> Slice:
         # A statement that binds nothing (a registration, a try around an import) may do anything: it always counts.
@@ -167,13 +173,11 @@ def drifted(source: Source, module: ModuleType, name: str) -> bool:
         except Undigestible:
             return True
     if isinstance(value, FunctionType):
-        return read_code(value.__code__).digest not in source.code_digests and not hasattr(value, "__wrapped__")
+        return not source.holds(value.__code__, name) and not hasattr(value, "__wrapped__")
     if isinstance(value, type):
         methods = [m for m in vars(value).values() if isinstance(m, FunctionType)]
-        written = [m for m in methods if m.__code__.co_filename == str(source.path)]
-        return value.__module__ != module.__name__ or any(
-            read_code(m.__code__).digest not in source.code_digests for m in written
-        )
+        written = [m for m in methods if m.__code__.co_filename != "<string>"]
+        return value.__module__ != module.__name__ or not all(source.holds(m.__code__) for m in written)
     return source.first_seen(name, value) is not value
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import typer
 
-from graphface.cli import assets, nodes, plan, run
+from graphface.cli import assets, cache, explain, new, nodes, plan, run, schema, show
 
 ENTRY_POINTS = "graphface.commands"
 
@@ -31,8 +31,13 @@ def build() -> typer.Typer:
     app.callback()(_version)
     app.command("run")(run.run)
     app.command("plan")(plan.plan)
+    app.command("explain")(explain.explain)
+    app.command("show")(show.show)
     app.command("nodes")(nodes.nodes)
+    app.command("new")(new.new)
+    app.command("schema")(schema.schema)
     app.add_typer(assets.app, name="assets")
+    app.add_typer(cache.app, name="cache")
     for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda p: p.name):
         command = point.load()
         if isinstance(command, typer.Typer):

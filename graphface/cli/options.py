@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, overload
 
 import typer
 
 if TYPE_CHECKING:
+    from graphface.cache.disk import DiskTier
     from graphface.graph import Graph
 
 GraphName = Annotated[str, typer.Argument(metavar="GRAPH", help="A graph file, or the name of a shipped one (relight).")]
@@ -23,6 +24,11 @@ Replaces = Annotated[
 Variants = Annotated[list[str], typer.Option("--variant", metavar="NAME", help="A variant that the graph declares.")]
 Profiles = Annotated[list[str], typer.Option("--profile", metavar="NAME", help="A profile: draft, full, ...")]
 Plugins = Annotated[list[Path], typer.Option("--plugin", metavar="FILE.py", help="A file of further operators.")]
+
+Cache = Annotated[
+    Path | None,
+    typer.Option("--cache", metavar="DIR", envvar="GRAPHFACE_CACHE", help="Keep results in this folder between runs."),
+]
 
 
 def load_graph(
@@ -49,6 +55,27 @@ def load_graph(
         profiles=profiles,
         plugins=plugins,
     )
+
+
+@overload
+def open_cache(folder: None, said: list[str]) -> None: ...
+@overload
+def open_cache(folder: Path, said: list[str]) -> DiskTier: ...
+@overload
+def open_cache(folder: Path | None, said: list[str]) -> DiskTier | None: ...
+def open_cache(folder: Path | None, said: list[str]) -> DiskTier | None:
+    """The disk tier of a folder; what it reports is appended to `said`. Its budget is $GRAPHFACE_CACHE_BYTES or 10 GB."""
+    if folder is None:
+        return None
+    import os
+
+    from graphface.cache.disk import DiskTier
+    from graphface.errors import UsageError
+
+    budget = os.environ.get("GRAPHFACE_CACHE_BYTES", "10000000000")
+    if not budget.isdigit():
+        raise UsageError(f"GRAPHFACE_CACHE_BYTES={budget!r}: expected a number of bytes")
+    return DiskTier(folder, int(budget), said.append)
 
 
 def read_inputs(pairs: list[str]) -> dict[str, Any]:

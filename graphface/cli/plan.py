@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from graphface.cli.options import (
+    Cache,
     GraphName,
     Inputs,
     Plugins,
@@ -15,6 +16,7 @@ from graphface.cli.options import (
     Sets,
     Variants,
     load_graph,
+    open_cache,
     read_inputs,
 )
 
@@ -30,6 +32,7 @@ def plan(
     variants: Variants = [],  # noqa: B006
     profiles: Profiles = [],  # noqa: B006
     plugins: Plugins = [],  # noqa: B006
+    cache: Cache = None,
 ) -> None:
     """Show what a run would do: every node as run, memory, disk, maybe or skipped, with the reason."""
     from graphface.evaluate import Evaluator
@@ -38,4 +41,4 @@ def plan(
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     names = [text.partition("=")[0] for text in output] or None
-    print_plan(make_plan(loaded, loaded.bind(read_inputs(inputs)), loaded.targets(names), Evaluator()))
+    print_plan(make_plan(loaded, loaded.bind(read_inputs(inputs)), loaded.targets(names), Evaluator(disk=open_cache(cache, []))))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from graphface.cli.options import (
+    Cache,
     GraphName,
     Inputs,
     Plugins,
@@ -16,6 +17,7 @@ from graphface.cli.options import (
     Sets,
     Variants,
     load_graph,
+    open_cache,
     read_inputs,
 )
 
@@ -37,6 +39,8 @@ def run(
     plugins: Plugins = [],  # noqa: B006
     threads: Annotated[int, typer.Option(min=0, help="Nodes that may run at once; 0: one per core.")] = 0,
     guard: Annotated[str, typer.Option(help="What to do about NaN and infinity: off, warn or error.")] = "error",
+    cache: Cache = None,
+    trace: Annotated[Path | None, typer.Option(metavar="run.json", help="Write what happened at every node.")] = None,
     times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
 ) -> None:
     """Run a graph: [bold]graphface run relight -i photo=portrait.jpg -o relit.png[/bold]"""
@@ -44,23 +48,39 @@ def run(
 
     from graphface.errors import UsageError
     from graphface.evaluate import Evaluator
+    from graphface.explain import History, history_folder, identities
     from graphface.outputs import check_folder, write_output
+    from graphface.provenance import provenance
     from graphface.terminal import ProgressBar, print_times, print_warnings
+    from graphface.trace import Trace
 
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     files = output_files(loaded, output)
-    for path in files.values():
+    for path in (*files.values(), *([trace] if trace else [])):
         check_folder(path)
     targets = loaded.targets(files)
     bound = loaded.bind(read_inputs(inputs))
+    said: list[str] = []
+    tracer = Trace()
     with ProgressBar() as bar:
-        evaluator = Evaluator(threads=threads or os.cpu_count() or 1, guard=guard, observers=[bar])  # type: ignore[arg-type]
-        result = evaluator.run(loaded, bound, targets)
+        evaluator = Evaluator(
+            disk=open_cache(cache, said),
+            threads=threads or os.cpu_count() or 1,
+            guard=guard,  # type: ignore[arg-type]
+            observers=[bar] if trace is None else [bar, tracer],
+        )
+        try:
+            result = evaluator.run(loaded, bound, targets)
+        finally:
+            if trace is not None:
+                tracer.write(trace, loaded, bound)
+    if cache is not None:
+        History(history_folder(cache)).remember(loaded.name, identities(loaded, bound, targets))
     for name, path in files.items():
-        write_output(result[name], loaded.type_of(targets[name]), path)
-    print_warnings(result)
+        write_output(result[name], loaded.type_of(targets[name]), path, text=provenance(loaded))
+    print_warnings([*result.warnings, *said])
     if times:
         print_times(result.records)
 

@@ -1,0 +1,62 @@
+"""`graphface explain`: why each node would run or not, compared with the last run that used the same cache."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import typer
+
+from graphface.cli.options import (
+    Cache,
+    GraphName,
+    Inputs,
+    Plugins,
+    Profiles,
+    Replaces,
+    Sets,
+    Variants,
+    load_graph,
+    open_cache,
+    read_inputs,
+)
+
+
+def explain(
+    graph: GraphName,
+    inputs: Inputs = [],  # noqa: B006
+    output: Annotated[
+        list[str], typer.Option("-o", "--output", metavar="NAME", help="An output, or any node.port; default: all.")
+    ] = [],  # noqa: B006
+    sets: Sets = [],  # noqa: B006
+    replaces: Replaces = [],  # noqa: B006
+    variants: Variants = [],  # noqa: B006
+    profiles: Profiles = [],  # noqa: B006
+    plugins: Plugins = [],  # noqa: B006
+    cache: Cache = None,
+    run: Annotated[bool, typer.Option("--run", help="Run it too, and show milliseconds and bytes.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Say for every node why it runs or not: first seen, a parameter, its code, an input changed, evicted, damaged."""
+    from graphface.evaluate import Evaluator
+    from graphface.explain import History, history_folder, identities, with_results
+    from graphface.explain import explain as explain_plan
+    from graphface.terminal import print_explained
+
+    loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
+    bound = loaded.bind(read_inputs(inputs))
+    targets = loaded.targets([text.partition("=")[0] for text in output] or None)
+    said: list[str] = []
+    evaluator = Evaluator(disk=open_cache(cache, said))
+    history = History(history_folder(cache))
+    explained = explain_plan(loaded, bound, targets, evaluator, history)
+    if run:
+        result = evaluator.run(loaded, bound, targets)
+        explained = with_results(explained, result.records, said)
+        history.remember(loaded.name, identities(loaded, bound, targets))
+    if as_json:
+        print(json.dumps([entry.as_json() for entry in explained], indent=1))
+    else:
+        print_explained(explained)
+
+

@@ -1,0 +1,38 @@
+"""Results that carry the graph they came from: the effective document, kept inside the file.
+
+Which files can hold words is known to the value types (`to_file(..., text=)` and `text_in_file`), not to the engine.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphface.effective import effective
+from graphface.errors import UnreadableFile
+from graphface.registry import Registry
+
+if TYPE_CHECKING:
+    from graphface.graph import Graph
+
+KEY = "graphface"
+
+
+def provenance(graph: Graph) -> dict[str, str]:
+    """What to keep inside a result of this graph."""
+    return {KEY: effective(graph, origins=False)}
+
+
+def read_provenance(path: Path, registry: Registry) -> str:
+    """The effective document inside a result, as YAML.
+
+    Raises:
+        UnreadableFile: the file holds none, or cannot be read.
+    """
+    for kind in registry.type_classes():
+        reader = getattr(kind, "text_in_file", None)
+        if reader is not None:
+            text = reader(path).get(KEY)
+            if text:
+                return str(text)
+    raise UnreadableFile(path, "is neither a graph file nor a result that carries its graph")
