@@ -282,10 +282,10 @@ def _alternatives(annotation: Any) -> Iterator[Any]:
 
 
 def _bare(annotation: Any) -> Any:
-    """The class behind an annotation, or `Literal`, or something that is no class and says nothing."""
+    """The class behind an annotation (`object` for Any), or `Literal`, or what is no class and says nothing."""
     while typing.get_origin(annotation) is Annotated:
         annotation = annotation.__origin__
-    return typing.get_origin(annotation) or annotation
+    return object if annotation is Any else typing.get_origin(annotation) or annotation
 
 
 def _arguments(annotation: Any) -> tuple[Any, ...]:
