@@ -35,23 +35,12 @@ from graphface.document import (
 )
 from graphface.errors import DocumentError, Problem, UnreadableFile, nearest_names
 from graphface.located import Place, Source, parse, scalar
+from graphface.references import MAX_NESTING, References, Scope, Target
 
 MAX_NODES = 2_000_000
-MAX_NESTING = 32
 GRAPH_SUFFIXES = (".yaml", ".yml")
 
 _WITH, _VARIANT, _PROFILE, _REPLACE, _SET = range(5)
-
-
-@dataclass(frozen=True)
-class Target:
-    """What a wire leads to: a node or graph input of the flat graph, and fields of its value."""
-
-    name: str
-    fields: tuple[str, ...] = ()
-
-    def __str__(self) -> str:
-        return ".".join((self.name, *self.fields))
 
 
 @dataclass(frozen=True)
@@ -106,18 +95,6 @@ class _Overlay:
     rank: int
     path: tuple[str, ...]
     entry: NodeEntry
-
-
-@dataclass
-class Scope:
-    """One graph file in its place in the nesting: what its names mean."""
-
-    prefix: str
-    document: Document
-    parent: Scope | None
-    wires: dict[str, Wire]
-    graphs: dict[str, Scope] = field(default_factory=dict)
-    carried: dict[str, set[str]] = field(default_factory=dict)
 
 
 def compose(document: Document, choices: Choices, *, shipped: Sequence[Path] = ()) -> Composition:
@@ -349,13 +326,12 @@ class _Composer:
             else:
                 constants[key] = setting
         self._check_input_names(scope, node, inner, constants)
+        chain = (*chain, inner.path)
         if constants:
             inner = copy.copy(inner)
             inner.inputs = _with_defaults(inner.inputs, constants)
         prefix = f"{scope.prefix}{node.name}/"
-        scope.graphs[node.name] = self._expand(
-            inner, prefix, scope, node.wires, [*pending, *below], (*chain, inner.path)
-        )
+        scope.graphs[node.name] = self._expand(inner, prefix, scope, node.wires, [*pending, *below], chain)
 
     def _check_input_names(
         self, scope: Scope, node: NodeEntry, inner: Document, constants: Mapping[str, Setting]
@@ -390,6 +366,7 @@ class _Composer:
     # --- references -------------------------------------------------------------------------------
 
     def _resolve_all(self, top: Scope) -> dict[str, Target]:
+        references = References(self._problem)
         stack = [top]
         while stack:
             scope = stack.pop()
@@ -400,80 +377,16 @@ class _Composer:
                     continue
                 for port, wire in node.wires.items():
                     if wire.names is not None:
-                        targets, is_list = self._resolve_wire(scope, wire)
+                        targets, is_list = references.wire(scope, wire)
                         flat.wires[port] = FlatWire(targets, is_list, wire.place)
         outputs = {}
         for name, setting in top.document.outputs.items():
-            found = self._resolve(top, setting.value, setting.place, 0)
+            found = references.resolve(top, setting.value, setting.place)
             if found is not None and len(found[0]) == 1:
                 outputs[name] = found[0][0]
             elif found is not None:
                 self._problem(f"output {name!r} is a list of wires; join them in a node", setting.place)
         return outputs
-
-    def _resolve_wire(self, scope: Scope, wire: Wire) -> tuple[tuple[Target, ...], bool]:
-        targets: list[Target] = []
-        is_list = wire.is_list
-        for name in wire.names or ():
-            found = self._resolve(scope, name, wire.place, 0)
-            if found is not None:
-                targets += found[0]
-                is_list = is_list or found[1]
-        return tuple(targets), is_list
-
-    def _resolve(self, scope: Scope, text: str, place: Place | None, depth: int) -> tuple[tuple[Target, ...], bool] | None:
-        """What a reference means in a scope: targets in the flat graph, and whether they form a list."""
-        if depth > 4 * MAX_NESTING:
-            self._problem(f"{text!r} leads back to itself through nested graphs", place)
-            return None
-        head, *fields = text.split(".")
-        if "/" in head and head not in scope.document.nodes and head not in scope.document.inputs:
-            first, rest = head.split("/", 1)
-            if first in scope.graphs:
-                return self._resolve(scope.graphs[first], ".".join((rest, *fields)), place, depth + 1)
-            self._unknown_reference(scope, text, place)
-            return None
-        if head in scope.graphs:
-            return self._resolve_output(scope.graphs[head], head, fields, place, depth)
-        entry = scope.document.nodes.get(head)
-        if entry is not None and not entry.removed:
-            return (Target(scope.prefix + head, tuple(fields)),), False
-        if head in scope.document.inputs:
-            wire = scope.wires.get(head)
-            if wire is None or wire.names is None or scope.parent is None:
-                return (Target(scope.prefix + head, tuple(fields)),), False
-            found: list[Target] = []
-            is_list = wire.is_list
-            for name in wire.names:
-                outer = self._resolve(scope.parent, name, wire.place, depth + 1)
-                if outer is None:
-                    return None
-                found += [Target(t.name, (*t.fields, *fields)) for t in outer[0]]
-                is_list = is_list or outer[1]
-            return tuple(found), is_list
-        self._unknown_reference(scope, text, place)
-        return None
-
-    def _resolve_output(
-        self, graph: Scope, name: str, fields: list[str], place: Place | None, depth: int
-    ) -> tuple[tuple[Target, ...], bool] | None:
-        offered = graph.document.outputs
-        if not fields and len(offered) == 1:
-            fields = list(offered)
-        if not fields or fields[0] not in offered:
-            wanted = f"no output {fields[0]!r}" if fields else "several outputs, name one"
-            nearest = nearest_names(fields[0], offered) if fields else []
-            self._problem(f"graph {name!r} has {wanted} (it has {', '.join(offered)})", place, nearest)
-            return None
-        inner = self._resolve(graph, offered[fields[0]].value, offered[fields[0]].place, depth + 1)
-        if inner is None:
-            return None
-        return tuple(Target(t.name, (*t.fields, *fields[1:])) for t in inner[0]), inner[1]
-
-    def _unknown_reference(self, scope: Scope, text: str, place: Place | None) -> None:
-        head = text.split(".")[0]
-        known = [*scope.document.inputs, *(n for n, e in scope.document.nodes.items() if not e.removed)]
-        self._problem(f"no node or input {head!r} in this graph", place, nearest_names(head, known))
 
     def _problem(self, message: str, place: Place | None, nearest: Sequence[str] = ()) -> None:
         self._problems.append(Problem(message, place, tuple(nearest)))

@@ -1,10 +1,10 @@
 """A graph file as a validated document: every entry of the right form, every value with its place.
 
 The names of nodes and inputs are words; a path ("face/landmarks") is the name that a node of a nested graph has in the
-flat form of `graphface.effective`. This module knows the form of one file and nothing of the others: what an operator's parameters are called is checked
-when the graph is wired (`graphface.graph`), what another file says when files are composed (`graphface.compose`). All
-mistakes of a file are collected and reported at once. A hand-written reader instead of a pydantic model, since
-pydantic copies the tree and loses the places on the way.
+flat form of `graphface.effective`. This module knows the form of one file and nothing of the others: what an operator's
+parameters are called is checked when the graph is wired (`graphface.graph`), what another file says when files are
+composed (`graphface.compose`). All mistakes of a file are collected and reported at once. A hand-written reader instead
+of a pydantic model, since pydantic copies the tree and loses the places on the way.
 """
 
 from __future__ import annotations
@@ -92,7 +92,9 @@ def read_document(path: Path) -> tuple[Document, list[Problem]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UnreadableFile(path, f"not UTF-8 text (byte {error.start} is 0x{error.object[error.start]:02x})") from None
+        raise UnreadableFile(
+            path, f"not UTF-8 text (byte {error.start} is 0x{error.object[error.start]:02x})"
+        ) from None
     except (OSError, ValueError) as error:
         raise UnreadableFile(path, getattr(error, "strerror", None) or str(error)) from None
     return parse_document(Source(str(path), text), path)
@@ -181,7 +183,9 @@ def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
             entry.doc = str(body.get("doc") or "")
             document.inputs[name] = entry
         else:
-            yield Problem(f"input {name!r}: expected a type, as in '{name}: Image' or '{{type: Image, default: ...}}'", place)
+            yield Problem(
+                f"input {name!r}: expected a type, as in '{name}: Image' or '{{type: Image, default: ...}}'", place
+            )
 
 
 def _read_outputs(tree: Map, document: Document) -> Iterator[Problem]:
@@ -191,7 +195,9 @@ def _read_outputs(tree: Map, document: Document) -> Iterator[Problem]:
             document.outputs[name] = Setting(body, place)
             yield from _check_reference(body, place)
         else:
-            yield Problem(f"output {name!r}: expected the name of a node or input, as in 'image: composite.image'", place)
+            yield Problem(
+                f"output {name!r}: expected the name of a node or input, as in 'image: composite.image'", place
+            )
 
 
 def _read_overlays(tree: Map, document: Document) -> Iterator[Problem]:
@@ -201,7 +207,9 @@ def _read_overlays(tree: Map, document: Document) -> Iterator[Problem]:
     ):
         for name, body, place, key_place in _section(tree, section):
             yield from _check_name(name, key_place)
-            target[name], problems = read_overlay(body if body is not None else Map(tree.source, 0), place, settings_only=settings_only)
+            target[name], problems = read_overlay(
+                body if body is not None else Map(tree.source, 0), place, settings_only=settings_only
+            )
             yield from problems
 
 
@@ -238,7 +246,8 @@ def _read_wire(node: NodeEntry, port: str, value: Any, place: Place) -> Iterator
         node.wires[port] = Wire(tuple(value), True, place)
     else:
         yield Problem(
-            f"port {port!r} of node {node.name!r} takes the name of a node or input; a constant belongs under 'with'", place
+            f"port {port!r} of node {node.name!r} takes the name of a node or input; a constant belongs under 'with'",
+            place,
         )
 
 
@@ -253,7 +262,9 @@ def _unknown_keys(body: Map, known: tuple[str, ...], what: str) -> Iterator[Prob
     for key in body:
         if key not in known:
             yield Problem(
-                f"{what} has no entry {key!r} (it has {', '.join(known)})", body.key_place(key), tuple(nearest_names(key, known, 1))
+                f"{what} has no entry {key!r} (it has {', '.join(known)})",
+                body.key_place(key),
+                tuple(nearest_names(key, known, 1)),
             )
 
 

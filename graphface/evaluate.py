@@ -43,17 +43,17 @@ _Outcome = tuple[Any, NodeError | UsageError | None, float, float, tuple[str, ..
 class Result(Mapping[str, Any]):
     """The outputs of a run by name, and the `records` of every node it touched."""
 
-    values: dict[str, Any]
+    outputs: dict[str, Any]
     records: list[Record] = field(default_factory=list, repr=False)
 
     def __getitem__(self, name: str) -> Any:
-        return self.values[name]
+        return self.outputs[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.values)
+        return iter(self.outputs)
 
     def __len__(self) -> int:
-        return len(self.values)
+        return len(self.outputs)
 
     @property
     def warnings(self) -> list[str]:
@@ -166,7 +166,13 @@ class _Run:
 
     def _demand(self, slots: Sequence[int]) -> None:
         """See to it that slots get their values: look each up, or demand what it needs."""
-        keys, demanded, find, first, steps = self._keys, self._slots, self._evaluator.find, self._first, self._graph.steps
+        keys, demanded, find, first, steps = (
+            self._keys,
+            self._slots,
+            self._evaluator.find,
+            self._first,
+            self._graph.steps,
+        )
         stack = list(slots)
         while stack:
             slot = stack.pop()

@@ -107,7 +107,9 @@ def identities(graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, R
         step = graph.steps[slot - first]
         kept = {n: _text(v) for n, v in step.parameters.items() if n not in step.operator.cosmetic}
         inputs = {a.port: [[names[r.slot], keys[r.slot].hex()] for r in a.refs] for a in step.arguments}
-        found[step.name] = Identity(step.operator.name, CODE.digest(step.operator).hex(), kept, inputs, keys[slot].hex())
+        found[step.name] = Identity(
+            step.operator.name, CODE.digest(step.operator).hex(), kept, inputs, keys[slot].hex()
+        )
     return found
 
 
@@ -132,7 +134,9 @@ def explain(
     return explained
 
 
-def with_results(explained: Sequence[Explained], records: Sequence[Record], said: Sequence[str] = ()) -> list[Explained]:
+def with_results(
+    explained: Sequence[Explained], records: Sequence[Record], said: Sequence[str] = ()
+) -> list[Explained]:
     """The same after the run: what happened, in which time and with how many bytes.
 
     Args:
@@ -186,7 +190,8 @@ def _why(before: Identity | None, now: Identity, changed: set[str], evaluator: E
 def _input_change(port: str, before: list[list[str]], now: list[list[str]], changed: set[str]) -> str:
     names_before, names_now = [name for name, _ in before], [name for name, _ in now]
     if names_before != names_now:
-        return f"port {port} is connected to {', '.join(names_now) or 'nothing'}, was {', '.join(names_before) or 'nothing'}"
+        here, there = (", ".join(names) or "nothing" for names in (names_now, names_before))
+        return f"port {port} is connected to {here}, was {there}"
     culprit = next(name for (name, new), (_, old) in zip(now, before, strict=True) if new != old)
     return f"{culprit} changed above it" if culprit in changed else f"input {culprit} changed"
 

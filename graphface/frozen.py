@@ -89,7 +89,8 @@ def first_non_finite(value: Any, known: dict[int, weakref.ref[Any]]) -> str | No
         bad = ~np.isfinite(array)
         index = tuple(int(i) for i in np.argwhere(bad)[0])
         name = f".{path}" if path else ""
-        return f"{name} has {int(bad.sum())} non-finite of {array.size} values, the first ({array[index]}) at {list(index)}"
+        where = f"the first ({array[index]}) at {list(index)}"
+        return f"{name} has {int(bad.sum())} non-finite of {array.size} values, {where}"
     return None
 
 
@@ -111,7 +112,10 @@ def describe(value: Any) -> str:
         text = f"{value.dtype}{list(value.shape)}"
         if value.size and value.dtype.kind in "fiub":
             with np.errstate(invalid="ignore"):
-                low, high = np.nanmin(value) if np.isfinite(value).any() else np.nan, np.nanmax(value) if np.isfinite(value).any() else np.nan
+                low, high = (
+                    np.nanmin(value) if np.isfinite(value).any() else np.nan,
+                    np.nanmax(value) if np.isfinite(value).any() else np.nan,
+                )
             text += f" {low:.4g}..{high:.4g}"
         return text
     if is_dataclass(value) and not isinstance(value, type):

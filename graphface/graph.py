@@ -2,6 +2,8 @@
 
     graph = load("relight.yaml", profiles=["draft"], set={"mask.softness": 0.2})
     result = graph.run(photo="portrait.jpg", outputs=["image", "face/mesh.normals"])
+
+Loading checks everything; what is left to fail in a run are the operators themselves.
 """
 
 from __future__ import annotations
@@ -22,6 +24,7 @@ from graphface.inputs import Bound, bind, missing_inputs
 from graphface.located import Source
 from graphface.needs import declined_now
 from graphface.provenance import read_provenance
+from graphface.references import References
 from graphface.registry import Registry, default_registry
 from graphface.values import PortType
 from graphface.wiring import GraphInput, Ref, Step, field_type, wire
@@ -42,7 +45,7 @@ def load(
     plugins: Sequence[str | Path] = (),
     registry: Registry | None = None,
 ) -> Graph:
-    """A graph from a file, the name of a shipped graph ("relight"), a YAML text, a mapping of the same form, or a result
+    """A graph from a file, a shipped graph's name ("relight"), a YAML text, a mapping of the same form, or a result
     that carries its graph.
 
     Args:
@@ -106,9 +109,7 @@ class Graph:
     def name(self) -> str:
         return self.composition.name
 
-    def run(
-        self, outputs: Iterable[str] | None = None, *, evaluator: Evaluator | None = None, **inputs: Any
-    ) -> Result:
+    def run(self, outputs: Iterable[str] | None = None, *, evaluator: Evaluator | None = None, **inputs: Any) -> Result:
         """Evaluate outputs and only what they need.
 
         Args:
@@ -204,18 +205,29 @@ class Graph:
     def _target(self, name: str) -> Ref:
         if name in self.outputs:
             return self.outputs[name]
-        node, *fields = name.split(".")
-        slot = self._slots.get(node)
-        if slot is None:
-            known = [*self.outputs, *self._slots]
-            raise InputError(name, "no output or node of this name", nearest_names(node, known))
-        declared = self.type_of(Ref(slot))
-        if field_type(declared, tuple(fields)) is None:
-            raise InputError(name, f"{node!r} ({declared}) has no field {'.'.join(fields)!r}")
-        return Ref(slot, tuple(fields))
+        said: list[str] = []
+        nearest: list[str] = []
+
+        def complain(message: str, place: object, near: Sequence[str]) -> None:
+            said.append(message)
+            nearest.extend(near)
+
+        found = References(complain).resolve(self.composition.scope, name, None)
+        if found is None or len(found[0]) != 1:
+            reason = said[0] if said else "is a list of wires"
+            raise InputError(name, reason, nearest or nearest_names(name, [*self.outputs, *self._slots]))
+        target = found[0][0]
+        if target.name not in self._slots:
+            raise InputError(name, "no output or node of this name", nearest_names(name, [*self.outputs, *self._slots]))
+        declared = self.type_of(Ref(self._slots[target.name]))
+        if field_type(declared, target.fields) is None:
+            raise InputError(name, f"{target.name!r} ({declared}) has no field {'.'.join(target.fields)!r}")
+        return Ref(self._slots[target.name], target.fields)
 
 
-def _read(source: str | Path | Mapping[str, Any], shipped: Sequence[Path], registry: Registry) -> tuple[Document, list[Any]]:
+def _read(
+    source: str | Path | Mapping[str, Any], shipped: Sequence[Path], registry: Registry
+) -> tuple[Document, list[Any]]:
     if isinstance(source, Mapping):
         import yaml
 

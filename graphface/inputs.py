@@ -49,13 +49,17 @@ class Bound:
 
 
 def bind(
-    inputs: Mapping[str, GraphInput], given: Mapping[str, Any], *, roots: Sequence[Path] = (), stat_shortcut: bool = True
+    inputs: Mapping[str, GraphInput],
+    given: Mapping[str, Any],
+    *,
+    roots: Sequence[Path] = (),
+    stat_shortcut: bool = True,
 ) -> dict[str, Bound]:
     """Bind every input of a graph to what was given, or to its default.
 
     Args:
         given: input name to a value, or to a path where the input's type can be read from a file.
-        roots: folders in which the default files of shipped graphs are looked for, after that of the graph file.
+        roots: folders in which relative paths are looked for: default files there only, given ones there at last.
         stat_shortcut: trust size and modification time of a file hashed before.
 
     Raises:
@@ -64,8 +68,14 @@ def bind(
     """
     for name in given:
         if name not in inputs:
-            raise InputError(name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs))
-    return {name: _bind_one(entry, given, roots, stat_shortcut) for name, entry in inputs.items() if _has_value(entry, given)}
+            raise InputError(
+                name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs)
+            )
+    return {
+        name: _bind_one(entry, given, roots, stat_shortcut)
+        for name, entry in inputs.items()
+        if _has_value(entry, given)
+    }
 
 
 def missing_inputs(inputs: Mapping[str, GraphInput], given: Mapping[str, Any]) -> list[str]:
@@ -87,7 +97,7 @@ def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path]
     if name in given:
         value = given[name]
         if reader is not None and isinstance(value, str | Path):
-            return _bind_file(entry, Path(value), reader, stat_shortcut)
+            return _bind_file(entry, _given_file(value, roots), reader, stat_shortcut)
         return _bind_object(entry, _from_text(value, declared))
     default = entry.default.value if entry.default is not None else None
     if reader is not None and isinstance(default, str):
@@ -146,6 +156,14 @@ def _from_text(value: Any, declared: PortType) -> Any:
     return value
 
 
+def _given_file(value: str | Path, roots: Sequence[Path]) -> Path:
+    """The path given; where nothing is there, a file of that name beside the graph or among the shipped ones."""
+    path = Path(value)
+    if path.exists() or path.is_absolute():
+        return path
+    return next((root / path for root in roots if (root / path).is_file()), path)
+
+
 def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:
     for root in roots:
         path = (root / name).resolve()
@@ -161,7 +179,9 @@ def _atom_reader(atom: Atom) -> Reader | None:
 
 
 def _coercible(declared: PortType) -> bool:
-    return any(hasattr(a, "coerce") for a in declared.alternatives) or any(isinstance(a, ArrayType) for a in declared.alternatives)
+    return any(hasattr(a, "coerce") for a in declared.alternatives) or any(
+        isinstance(a, ArrayType) for a in declared.alternatives
+    )
 
 
 def _code_of(reader: Reader) -> bytes:

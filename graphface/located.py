@@ -256,7 +256,8 @@ def _at_start() -> int:
 
 
 def _pack(mark: Any) -> int:
-    return (mark.line + 1) << _COLUMN_BITS | min(mark.column + 1, (1 << _COLUMN_BITS) - 1)
+    line, column = int(mark.line) + 1, int(mark.column) + 1
+    return line << _COLUMN_BITS | min(column, (1 << _COLUMN_BITS) - 1)
 
 
 def _mark_place(source: Source, error: yaml.MarkedYAMLError) -> Place:

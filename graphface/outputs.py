@@ -35,7 +35,7 @@ def write_output(value: Any, declared: PortType, path: Path, *, text: Mapping[st
         named = {name or "value": array for name, array in arrays_in(value)}
         if not named:
             raise UnwritableFile(path, f"a {type(value).__name__} holds no array")
-        _write_with(path, lambda beside: np.savez(beside, **named))
+        _write_with(path, lambda beside: np.savez(beside, **named))  # type: ignore[arg-type]
     else:
         writer = _writer(value, declared)
         if writer is None:

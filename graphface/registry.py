@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphface.errors import PluginError, UnknownOperator, UnknownType
 from graphface.node import Operator, operator_of
-from graphface.values import ANY, ListOf, PortType, port_type
+from graphface.values import ANY, Atom, ListOf, PortType, port_type
 
 if TYPE_CHECKING:
     from graphface.assets import Asset
@@ -112,7 +112,7 @@ class Registry:
         """
         parts = [p.strip() for p in text.split("|")]
         optional = "None" in parts
-        atoms = []
+        atoms: list[Atom] = []
         for part in parts:
             if part == "None":
                 continue

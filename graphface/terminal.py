@@ -1,4 +1,4 @@
-"""What the command line shows: tables, a progress bar, warnings. Results go to standard output, the rest to the other."""
+"""What the command line shows: tables, a progress bar, warnings. Results go to standard output, all else to error."""
 
 from __future__ import annotations
 
@@ -119,10 +119,11 @@ def print_warnings(warnings: Sequence[str]) -> None:
         console.print(f"warning: {warning}", style="yellow", markup=False, highlight=False, soft_wrap=True)
 
 
-def print_assets(rows: Sequence[tuple[str, str, str]]) -> None:
-    table = _table("asset", ">size", "where")
-    for name, size, where in rows:
-        table.add_row(name, size, where)
+def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], title: str = "") -> None:
+    """Any table of texts; a header beginning with ">" is right-aligned."""
+    table = _table(*headers, title=title)
+    for row in rows:
+        table.add_row(*row)
     _console().print(table)
 
 

@@ -53,7 +53,9 @@ def check_node(function: Callable[..., Any], *inputs: Any, non_finite: bool = Tr
 def check_ports(operator: Operator, inputs: tuple[Any, ...]) -> None:
     """Each input is of the type its port declares."""
     required = [p for p in operator.inputs.values() if p.required]
-    assert len(inputs) >= len(required), f"{operator.name}: {len(required)} ports are required, got {len(inputs)} inputs"
+    assert len(inputs) >= len(required), (
+        f"{operator.name}: {len(required)} ports are required, got {len(inputs)} inputs"
+    )
     for port, value in zip(operator.inputs.values(), inputs, strict=False):
         problem = port.type.problem(value)
         assert problem is None or (port.lazy and value is None), f"{operator.name}.{port.name}: {problem}"

@@ -192,7 +192,7 @@ def _collect(annotation: Any, atoms: list[Atom]) -> bool:
     if origin is Annotated:
         return _collect(annotation.__origin__, atoms)
     if origin in (typing.Union, types.UnionType):
-        return any([_collect(a, atoms) for a in typing.get_args(annotation)])
+        return any([_collect(a, atoms) for a in typing.get_args(annotation)])  # noqa: C419 - visits every alternative
     if origin is list:
         atoms.append(ListOf(port_type(typing.get_args(annotation)[0])))
         return False

@@ -4,8 +4,8 @@ Everything wrong is found in one pass and reported together: unknown operators, 
 range, a mask plugged into a picture, a required port left open, a cycle. After this nothing about the graph can fail
 but the operators themselves.
 
-A graph's inputs and its steps share one numbering, the *slot*: inputs come first, then the steps in an order where every
-step stands after what it depends on. Evaluation works on slots alone, so a node costs list indexing and no names.
+A graph's inputs and its steps share one numbering, the *slot*: inputs come first, then the steps in an order where
+every step stands after what it depends on. Evaluation works on slots alone, so a node costs list indexing and no names.
 """
 
 from __future__ import annotations
@@ -16,11 +16,12 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from graphface.compose import Composition, FlatNode, FlatWire, Target
+from graphface.compose import Composition, FlatNode, FlatWire
 from graphface.document import InputEntry, Setting
 from graphface.errors import DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
 from graphface.located import Place
 from graphface.node import InputPort, Operator
+from graphface.references import Target
 from graphface.registry import Registry
 from graphface.values import ListOf, PortType, output_fields
 
@@ -211,14 +212,17 @@ class _Wirer:
         for port in operator.inputs.values():
             if port.required and port.name not in node.wires:
                 self._problem(
-                    f"port {port.name!r} ({port.type}) of node {node.name!r} ({operator.name}) is not connected", node.place
+                    f"port {port.name!r} ({port.type}) of node {node.name!r} ({operator.name}) is not connected",
+                    node.place,
                 )
 
     def _check_wire(
         self, node: FlatNode, port: InputPort, flat: FlatWire, types: Mapping[str, PortType]
     ) -> bool | None:
         """Whether the port gets a list; None where the wire does not fit."""
-        found = [self._checked_type(t, types, flat.place, f"port {port.name!r} of node {node.name!r}") for t in flat.targets]
+        found = [
+            self._checked_type(t, types, flat.place, f"port {port.name!r} of node {node.name!r}") for t in flat.targets
+        ]
         if any(t is None for t in found):
             return None
         item = next((a.item for a in port.type.alternatives if isinstance(a, ListOf)), None)

@@ -2,7 +2,8 @@
 
 An array is counted once however many values hold it (a node that passes its photo on costs nothing), and what is
 dropped first is what is cheapest to compute again per byte held, among equals the longest unused. Ranking happens only
-when the budget is exceeded, over all entries at once and down to 90 %, so that a hit or a put is a dictionary operation.
+when the budget is exceeded, over all entries at once and down to 90 %, so that a hit or a put costs a dictionary
+operation.
 """
 
 from __future__ import annotations

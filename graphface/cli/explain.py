@@ -58,5 +58,3 @@ def explain(
         print(json.dumps([entry.as_json() for entry in explained], indent=1))
     else:
         print_explained(explained)
-
-

@@ -11,7 +11,9 @@ if TYPE_CHECKING:
     from graphface.cache.disk import DiskTier
     from graphface.graph import Graph
 
-GraphName = Annotated[str, typer.Argument(metavar="GRAPH", help="A graph file, or the name of a shipped one (relight).")]
+GraphName = Annotated[
+    str, typer.Argument(metavar="GRAPH", help="A graph file, or the name of a shipped one (relight).")
+]
 Inputs = Annotated[
     list[str], typer.Option("-i", "--input", metavar="NAME=VALUE", help="A graph input: a file, or a value.")
 ]
@@ -64,7 +66,7 @@ def open_cache(folder: Path, said: list[str]) -> DiskTier: ...
 @overload
 def open_cache(folder: Path | None, said: list[str]) -> DiskTier | None: ...
 def open_cache(folder: Path | None, said: list[str]) -> DiskTier | None:
-    """The disk tier of a folder; what it reports is appended to `said`. Its budget is $GRAPHFACE_CACHE_BYTES or 10 GB."""
+    """The disk tier of a folder; what it reports is appended to `said`. Budget: $GRAPHFACE_CACHE_BYTES or 10 GB."""
     if folder is None:
         return None
     import os

@@ -12,7 +12,9 @@ from graphface.cli.options import Plugins
 
 
 def schema(
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="File to write; standard output by default.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="File to write; standard output by default.")
+    ] = None,
     plugins: Plugins = [],  # noqa: B006
 ) -> None:
     """Write a JSON Schema of graph files: operators, ports, parameters, ranges and documentation."""
