@@ -306,7 +306,7 @@ class DiskTier:
 
     def _touch(self, descriptor: int, credit: float) -> None:
         moment = time.time() + credit
-        with contextlib.suppress(OSError):  # a read-only cache serves all the same
+        with contextlib.suppress(OSError, NotImplementedError):  # a read-only cache serves all the same
             os.utime(descriptor, (moment, moment))
 
     def _make_room(self, added: int) -> None:

@@ -46,6 +46,8 @@ def released(root: str) -> str | None:
     """ "name version" of the top-level module `root`, or None where nobody released it."""
     if root in sys.stdlib_module_names or root == "builtins":
         return "python"
+    if not root:  # a relative import outside any package
+        return None
     try:
         return f"{root} {metadata.version(root)}"
     except metadata.PackageNotFoundError:

@@ -216,6 +216,41 @@ class TestChanges:
         assert fingerprint(_uses_numpy).reached[-1] == f"numpy {np.__version__}"
 
 
+class TestKinds:
+    """Every kind of object that code may reach: the same cell twice gives one digest, an edited one another."""
+
+    @pytest.mark.parametrize(
+        ("cell", "old", "new"),
+        [
+            ("class M(BaseModel):\n    a: int = 1\ndef f(): return M()", "= 1", "= 2"),
+            ("class M(BaseModel):\n    a: int = Field(1, gt=0)\ndef f(): return M()", "gt=0", "gt=1"),
+            ("class M(BaseModel):\n    a: int\n    def b(self): return 1\ndef f(): return M()", "return 1", "return 2"),
+            ("class E(Enum):\n    A = 1\ndef f(): return E.A", "A = 1", "A = 2"),
+            ("E = Enum('E', 'A B')\nX = E.A\ndef f(): return X", "E.A", "E.B"),
+            ("def g(a, b): return a\nh = functools.partial(g, 1)\ndef f(): return h", "(g, 1)", "(g, 2)"),
+            ("def g(a): return a\nv = np.vectorize(g)\ndef f(): return v", "return a", "return -a"),
+            ("def make(n):\n    def g(): return n\n    return g\nf = make(1)", "make(1)", "make(2)"),
+            ("P = re.compile('a')\ndef f(): return P", "'a'", "'b'"),
+            ("class B:\n    def m(self): return 1\nclass C(B): pass\ndef f(): return C()", "return 1", "return 2"),
+            ("class C:\n    @classmethod\n    def m(cls): return 1\ndef f(): return C.m()", "return 1", "return 2"),
+            ("class C:\n    def __init__(s): s.k = 1\nc = C()\ndef f(): return c.k", "k = 1", "k = 2"),
+            ("T = {'gauss': lambda x: x, 'box': abs}\ndef f(k): return T[k]", "x: x", "x: -x"),
+            ("def f(x): return [i * 2 for i in x]", "* 2", "* 3"),
+            ("def f(x, *, k=1): return x", "k=1", "k=2"),
+            ("def f(x): return x ** 2", "** 2", "** 2.0"),
+            ("def f(x):\n    try: return 1\n    except ValueError: return 2", "ValueError", "KeyError"),
+            ("D = np.dtype('f4')\ndef f(): return D", "f4", "f8"),
+            ("L = threading.Lock()\nK = 1\ndef f(): return L, K", "K = 1", "K = 2"),
+            ("K = []\nK.append(K)\nN = 1\ndef f(): return K, N", "N = 1", "N = 2"),
+        ],
+    )
+    def test_kind(self, cell, old, new):
+        """Same cell, same digest; edited cell, other digest."""
+        assert old in cell
+        assert _cell(cell) == _cell(cell)
+        assert _cell(cell) != _cell(cell.replace(old, new))
+
+
 class TestStale:
     def test_fresh(self, load):
         """Nothing replaced: not stale."""
@@ -321,6 +356,14 @@ class TestReadCode:
         before = compile(source, "a.py", "exec", dont_inherit=True)
         after = compile(_commented(source), "b.py", "exec", dont_inherit=True)
         assert [read_code(c).digest for c in _nested(before)] == [read_code(c).digest for c in _nested(after)]
+
+
+def _cell(text: str) -> bytes:
+    """The digest of `f` as a notebook cell would define it."""
+    space: dict[str, object] = {"__name__": "cells"}
+    exec("import enum, functools, re, threading\nimport numpy as np\nfrom enum import Enum", space)
+    exec("from pydantic import BaseModel, Field\n" + text, space)
+    return fingerprint(space["f"]).digest
 
 
 def _even(n):
