@@ -85,5 +85,9 @@ def _value(value: Any) -> str:
 
 
 def _origin(place: Place) -> str:
+    """The place for reading: files below the working folder by their path, others by their name."""
     name = place.source.name
-    return name if name.startswith("--") else f"{os.path.relpath(name) if os.path.isabs(name) else name}:{place.line}:{place.column}"
+    if name.startswith("--"):
+        return name
+    relative = os.path.relpath(name) if os.path.isabs(name) else name
+    return f"{os.path.basename(name) if relative.startswith('..') else relative}:{place.line}:{place.column}"

@@ -11,6 +11,7 @@ every operator, so they are stated once, here:
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -45,6 +46,11 @@ def _picture_unit(values: FloatArray) -> NDArray[np.uint8]:
     return _as_bytes(values)
 
 
+def _picture_albedo(albedo: FloatArray) -> NDArray[np.uint8]:
+    """Colour over shading averages 1 where shading is intensity; half of it is mid grey."""
+    return _as_bytes(albedo / 2)
+
+
 def _picture_normals(normals: FloatArray) -> NDArray[np.uint8]:
     """Normals as colours, (n + 1) / 2; black where there is no surface (a zero vector)."""
     covered = np.any(normals != 0, axis=2, keepdims=True)
@@ -62,7 +68,7 @@ def _picture_gain(values: FloatArray) -> NDArray[np.uint8]:
 
 
 def _picture_depth(depth: FloatArray) -> NDArray[np.uint8]:
-    """Near is white, far is dark, no surface (-inf is never used; NaN neither: it is 0) is black."""
+    """Near is white, far is dark, no surface (0) is black."""
     covered = depth != 0
     if not covered.any():
         return _as_bytes(np.zeros_like(depth))
@@ -89,7 +95,7 @@ Depth = Annotated[
     FloatArray,
     _map("Depth", "H W", "z in the camera frame, pixels, larger is nearer; 0 where there is no surface.", _picture_depth),
 ]
-Albedo = Annotated[FloatArray, _map("Albedo", "H W 3", "Reflectance: colour over shading.", _picture_unit, low=0)]
+Albedo = Annotated[FloatArray, _map("Albedo", "H W 3", "Reflectance: colour over shading.", _picture_albedo, low=0)]
 Shading = Annotated[FloatArray, _map("Shading", "...", "Irradiance, H x W or H x W x 3.", _picture_unit, low=0)]
 Detail = Annotated[FloatArray, _map("Detail", "H W 3", "What rendering leaves over, signed.", _picture_signed)]
 Gain = Annotated[FloatArray, _map("Gain", "H W 3", "What rendering falls short of, as a factor.", _picture_gain, low=0)]
@@ -138,10 +144,16 @@ class Image:
         return read_image(path)
 
     @staticmethod
-    def to_file(image: Image, path: Path) -> None:
+    def to_file(image: Image, path: Path, text: Mapping[str, str] | None = None) -> None:
         from graphface.nodes.image import write_image
 
-        write_image(image, path)
+        write_image(image, path, text=text)
+
+    @staticmethod
+    def text_in_file(path: Path) -> dict[str, str]:
+        from graphface.nodes.image import read_text
+
+        return read_text(path)
 
     @classmethod
     def coerce(cls, value: object) -> Image:

@@ -1,7 +1,8 @@
 """Relight the path-traced heads by lights that are known, and compare with the path-traced answer.
 
-The heads' `meta.json` gives each light as a constant ambient radiance plus square area lights. Here an area light becomes a
-directional one and the ambient radiance a constant: what the scene model can say. Highlights, cast shadows and light
+The heads' `meta.json` gives each light as a constant ambient radiance plus square area lights. Here an area light
+becomes a directional one and the ambient radiance a constant: what the scene model can say. Highlights, cast shadows
+    and light
 between surfaces are in the truth and not in the answer.
 """
 
@@ -17,7 +18,8 @@ import numpy as np
 
 from graphface import UnreadableFile
 from graphface.nodes import blend, detail, sh
-from graphface.nodes.image import decode_srgb, encode_srgb, read_image, write_image
+from graphface.nodes.colour import decode_srgb, encode_srgb
+from graphface.nodes.image import read_image, write_image
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.face import face as face_mask

@@ -1,0 +1,80 @@
+"""`graphface demo`: relight a photograph under three scenes and show every stage on the way."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from graphface import Result
+    from graphface.nodes.commands.sheet import Picture
+
+SCENES = ("window-left", "rim-right", "red-blue")
+_STAGES = {
+    "normals": ("face.normals", "Normals"),
+    "face mask": ("face.mask", "Mask"),
+    "albedo": ("face.albedo", "Albedo"),
+    "shading": ("face.shading", "Shading"),
+    "light on the face": ("face.estimated", "Shading"),
+    "detail map": ("face.detail", "DetailMap"),
+}
+
+
+def demo(
+    folder: Annotated[Path, typer.Argument(help="Folder for the results; made if missing.")] = Path("results"),
+    photo: Annotated[
+        Path | None, typer.Option(help="A photograph; scikit-image's astronaut (Eileen Collins, NASA) by default.")
+    ] = None,
+) -> None:
+    """Relight a photograph under three scenes; writes the pictures and a contact sheet of every stage."""
+    import os
+
+    from graphface import Evaluator, MemoryTier, UnwritableFile, load
+    from graphface.nodes.image import write_picture
+    from graphface.outputs import write_output
+    from graphface.terminal import ProgressBar, print_times, print_warnings
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UnwritableFile(folder, error.strerror or str(error)) from None
+    given = photo if photo is not None else _astronaut()
+    graph = load("relight")
+    asked = ["image", "photo", "face.mesh", "face.landmarks", *(name for name, _ in _STAGES.values())]
+    records, relit, results = [], {}, None
+    with ProgressBar() as bar:
+        evaluator = Evaluator(memory=MemoryTier(), threads=os.cpu_count() or 1, observers=[bar])
+        for scene in SCENES:
+            results = graph.run(asked, evaluator=evaluator, photo=given, scene=f"scenes/{scene}.yaml")
+            records += results.records
+            relit[scene] = results["image"]
+    assert results is not None
+    for scene, image in relit.items():
+        write_output(image, graph.type_of(graph.outputs["image"]), folder / f"{scene}.png")
+    write_picture(_sheet(results, relit), folder / "contact-sheet.png")
+    print_times(records, title=f"{len(SCENES)} scenes")
+    print_warnings(results.warnings)
+    print(f"wrote {', '.join(f'{scene}.png' for scene in SCENES)} and contact-sheet.png to {folder}/")
+
+
+def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
+    """The photo whole, every stage around the face."""
+    from graphface.nodes.commands.sheet import around_face, contact_sheet, mesh_overlay, picture_of
+    from graphface.nodes.types import Image
+
+    photo, landmarks = results["photo"], results["face.landmarks"]
+    near = around_face(landmarks, photo)
+    cells = [("photo", Image.picture(photo)), ("face", Image.picture(photo)[near])]
+    cells.append(("mesh", mesh_overlay(photo, results["face.mesh"], landmarks)[near]))
+    cells += [(caption, picture_of(results[name], kind)[near]) for caption, (name, kind) in _STAGES.items()]
+    cells += [(f"relit: {scene}", Image.picture(image)[near]) for scene, image in relit.items()]
+    return contact_sheet(cells, columns=4)
+
+
+def _astronaut() -> Any:
+    """The photograph that scikit-image carries: uint8, 512 x 512 x 3."""
+    from skimage.data import astronaut
+
+    return astronaut()
