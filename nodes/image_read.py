@@ -73,6 +73,8 @@ def read_image(path: Path) -> Image:
         orientation, exif = _exif(path, picture)
         icc = picture.tags.get(ICC_PROFILE) if picture.format == "TIFF" else picture.image.info.get("icc_profile")
         samples, grey, icc = _decode(path, picture, icc)
+        if picture.format == "TIFF" and _already_upright(picture):
+            orientation = 1
     upright = np.ascontiguousarray(_upright(samples, orientation))
     pixels = np.repeat(upright[..., :1], 3, axis=2) if grey else np.ascontiguousarray(upright[..., :3])
     alpha = np.ascontiguousarray(upright[..., -1]) if upright.shape[2] in (2, 4) else None
@@ -244,6 +246,12 @@ def _unit(samples: NDArray[Any]) -> FloatArray:
         return samples.astype(np.float32)
     unit: FloatArray = np.multiply(samples, np.float32(1 / np.iinfo(samples.dtype).max), dtype=np.float32)
     return unit
+
+
+def _already_upright(picture: Picture) -> bool:
+    """Whether a decoded TIFF, unlike every other format, has been turned by its decoder: OpenCV always does, Pillow in
+    newer versions, and then it drops the tag."""
+    return picture.bits > 8 or picture.image is None or ORIENTATION not in picture.image.getexif()
 
 
 def _upright(samples: FloatArray, orientation: int) -> FloatArray:
