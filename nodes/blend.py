@@ -14,7 +14,12 @@ from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
 
 @node("blend.recombine")
 def recombine(
-    photo: Image, albedo: Albedo, shading: Shading, detail: DetailMap, *, shoulder: Annotated[float, Field(ge=0, le=1)] = 0.5
+    photo: Image,
+    albedo: Albedo,
+    shading: Shading,
+    detail: DetailMap,
+    *,
+    shoulder: Annotated[float, Field(ge=0, le=1)] = 0.5,
 ) -> Image:
     """I(x) = rho(x) s(x) + I_d(x) (paper, equation 3), over the whole picture, kept within what a picture can show.
 
@@ -38,9 +43,9 @@ def recombine(
 def _bend(change: FloatArray, pixels: FloatArray, shoulder: float) -> FloatArray:
     """The change, soft-limited to the room that each value has left to 1 (or to 0, where it gets darker).
 
-    Up to the share 1 - shoulder of its room r a change passes as it is; beyond, it nears r exponentially, without a kink.
-    Each channel has its own room, so bright colours drift to white as on film. (One factor for all channels keeps the
-    hue, and was rejected: where one channel is full already the others are held back in patches.)
+    Up to the share 1 - shoulder of its room r a change passes as it is; beyond, it nears r exponentially, without a
+    kink. Each channel has its own room, so bright colours drift to white as on film. (One factor for all channels
+    keeps the hue, and was rejected: where one channel is full already the others are held back in patches.)
     """
     room = np.maximum(np.where(change > 0, 1 - pixels, pixels), 0)
     size = np.abs(change)

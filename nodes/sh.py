@@ -33,9 +33,9 @@ def fit(
 ) -> LightingFit:
     """The light whose shading of these normals comes nearest to `shading` over the mask, by least squares.
 
-    Minimizes sum_x mask(x) (shading(x) - sum_i c_i Y_i(n(x)))^2 + ridge * W * sum_{i > 0} c_i^2, in float64, where W is the
-    mask's total weight. The constant term carries no ridge, so where the normals say nothing (a flat wall, one pixel) the
-    answer is the mean shading as ambient light.
+    Minimizes sum_x mask(x) (shading(x) - sum_i c_i Y_i(n(x)))^2 + ridge * W * sum_{i > 0} c_i^2, in float64, where W
+    is the mask's total weight. The constant term carries no ridge, so where the normals say nothing (a flat wall, one
+    pixel) the answer is the mean shading as ambient light.
 
     Args:
         shading: H x W, or H x W x 3 for one light per channel.
@@ -45,7 +45,8 @@ def fit(
         ridge: relative weight of the ridge.
 
     Returns:
-        `light`; `residual` shading minus fit, H x W (x 3), 0 off the mask; `condition` of the unridged system, capped at 1e12.
+        `light`; `residual` shading minus fit, H x W (x 3), 0 off the mask; `condition` of the unridged system, capped
+        at 1e12.
     """
     used = (mask > 0) & np.any(normals != 0, axis=2) & np.isfinite(shading.reshape(*mask.shape, -1)).all(axis=2)
     channels = shading.shape[2:]
@@ -66,7 +67,8 @@ def fit(
     condition = _condition(gram)
     if condition > ILL_CONDITIONED:
         warn(
-            f"sh.fit: the normals under the mask barely tell directions apart (condition {condition:.3g}); the ridge decided"
+            f"sh.fit: the normals under the mask barely tell directions apart (condition {condition:.3g}); "
+            "the ridge decided"
         )
     light = Lighting(coefficients.astype(np.float32))
     residual = np.zeros((*mask.shape, *channels), np.float32)

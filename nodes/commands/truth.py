@@ -2,8 +2,7 @@
 
 The heads' `meta.json` gives each light as a constant ambient radiance plus square area lights. Here an area light
 becomes a directional one and the ambient radiance a constant: what the scene model can say. Highlights, cast shadows
-    and light
-between surfaces are in the truth and not in the answer.
+and light between surfaces are in the truth and not in the answer.
 """
 
 from __future__ import annotations

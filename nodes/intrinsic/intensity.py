@@ -25,8 +25,8 @@ def intensity(
     Args:
         photo: in any encoding; both maps are in the same one.
         measure: "mean" of R, G and B; "luma", their Rec. 709 weighting; "value", the largest (then albedo <= 1).
-        floor: the least shading. Pixels darker than it get a dark albedo instead, so that the colour noise of black is not
-            blown up, and black things stay black under any light.
+        floor: the least shading. Pixels darker than it get a dark albedo instead, so that the colour noise of black is
+            not blown up, and black things stay black under any light.
 
     Returns:
         `albedo` float32 H x W x 3, `shading` float32 H x W; their product is the photo.

@@ -49,8 +49,8 @@ def facemesh(landmarks: Landmarks, *, depth: Annotated[float, Field(gt=0, le=4)]
 def vertex_normals(vertices: NDArray[np.float64], triangles: NDArray[np.int32], floor: float = 1e-12) -> FloatArray:
     """Unit normals float32 (V, 3): mean of the adjoining triangles' normals, weighted by their angle at the vertex.
 
-    Angle weights make the normal independent of how a flat patch is cut into triangles (Thürmer and Wüthrich 1998). A vertex
-    without any proper triangle looks at the viewer.
+    Angle weights make the normal independent of how a flat patch is cut into triangles (Thürmer and Wüthrich 1998). A
+    vertex without any proper triangle looks at the viewer.
     """
     corners = vertices[triangles]
     ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners

@@ -2,8 +2,8 @@
 
 The points come without a triangulation of ours to use, so one is computed: the mean of many frontal shapes is made
 symmetric, unrolled about a vertical axis inside the head, and triangulated by Delaunay. Unrolling keeps the temples and
-cheeks, steep in a frontal view, from degenerating into slivers; symmetry makes the triangulation its own mirror image, so
-that a symmetric face gets symmetric normals. Eyes and mouth are covered.
+cheeks, steep in a frontal view, from degenerating into slivers; symmetry makes the triangulation its own mirror image,
+so that a symmetric face gets symmetric normals. Eyes and mouth are covered.
 
 `facemesh468.npz` beside this module is the result of
 
@@ -40,8 +40,8 @@ _LEAST_QUALITY = 0.25
 class Topology:
     """What all faces share.
 
-    `triangles` int32 (T, 3), counter-clockwise seen from outside; `mirror` int32 (468,): the point that each becomes in a
-    mirror; `mean` float32 (468, 3): the mean shape, camera axes, inter-ocular distance 1, centred.
+    `triangles` int32 (T, 3), counter-clockwise seen from outside; `mirror` int32 (468,): the point that each becomes
+    in a mirror; `mean` float32 (468, 3): the mean shape, camera axes, inter-ocular distance 1, centred.
     """
 
     triangles: NDArray[np.int32]

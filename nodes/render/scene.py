@@ -6,8 +6,8 @@
     lights:
       - {type: directional, azimuth: -55, elevation: 20, intensity: 1.2, color: [1, 0.95, 0.88]}
 
-Light is linear and counted in the photo's own unit: irradiance 1 is what the face has on average in the photo. So an ambient
-of 1 leaves the brightness as it is, and a scene means the same for a bright photo and for a dark one.
+Light is linear and counted in the photo's own unit: irradiance 1 is what the face has on average in the photo. So an
+ambient of 1 leaves the brightness as it is, and a scene means the same for a bright photo and for a dark one.
 """
 
 from __future__ import annotations
@@ -52,9 +52,10 @@ class _Light(_Part):
 class DirectionalLight(_Light):
     """A light so far away that it shines in parallel; a surface facing it gets irradiance `intensity`.
 
-    Azimuth, in degrees: 0 is where the viewer stands, positive to the picture's right. Elevation: positive from above. Or give
-    `direction`, a vector towards the light in the camera frame (x right, y up, z towards the viewer). `size` is the angle
-    from the light's middle to its edge: a large light wraps around the face, a small one ends in a hard line.
+    Azimuth, in degrees: 0 is where the viewer stands, positive to the picture's right. Elevation: positive from above.
+    Or give `direction`, a vector towards the light in the camera frame (x right, y up, z towards the viewer). `size`
+    is the angle from the light's middle to its edge: a large light wraps around the face, a small one ends in a hard
+    line.
     """
 
     type: Literal["directional"] = "directional"
@@ -83,7 +84,7 @@ class DirectionalLight(_Light):
 
 
 class HarmonicLight(_Light):
-    """Spherical-harmonic irradiance: `coefficients` (1, 4, 9 or 16 numbers, see `graphface.nodes.sh`) or a named preset."""
+    """Spherical-harmonic irradiance: `coefficients` (1, 4, 9 or 16, see `graphface.nodes.sh`) or a named preset."""
 
     type: Literal["sh"] = "sh"
     coefficients: tuple[float, ...] | None = None
@@ -109,9 +110,10 @@ Light = Annotated[DirectionalLight | HarmonicLight, Field(discriminator="type")]
 class Scene(_Part):
     """A scene file's content.
 
-    `mode`: the lights `replace` the photo's own, are `add`ed to it, or `mix` with it by the share `mix`. With `keep_mean`
-    (replace and mix) the lights are scaled together so that the face stays as bright as it was, times `exposure`; without
-    it irradiance is taken as written, times `exposure`. `background` is the share of the new light far from the face.
+    `mode`: the lights `replace` the photo's own, are `add`ed to it, or `mix` with it by the share `mix`. With
+    `keep_mean` (replace and mix) the lights are scaled together so that the face stays as bright as it was, times
+    `exposure`; without it irradiance is taken as written, times `exposure`. `background` is the share of the new light
+    far from the face.
     """
 
     doc: str = ""

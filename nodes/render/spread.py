@@ -1,8 +1,8 @@
 """Shading beyond the face, where there is no geometry (paper, section 3.1, "compositing non-face pixels").
 
-Each pixel outside the face takes the shading of its nearest face pixel, and the result is smoothed. The estimated and the
-new shading go through the same linear operation: where they agree on the face they agree everywhere, so an unchanged
-light changes no pixel, and along the mask's edge there is nothing to see.
+Each pixel outside the face takes the shading of its nearest face pixel, and the result is smoothed. The estimated and
+the new shading go through the same linear operation: where they agree on the face they agree everywhere, so an
+unchanged light changes no pixel, and along the mask's edge there is nothing to see.
 
 Nearest-pixel fields are streaky and smooth fields need no resolution, so this runs on a small copy in which the
 inter-ocular distance has `resolution` pixels; on the face itself the full-resolution shading is kept.
@@ -113,13 +113,13 @@ def _shrunk(
         return small_weight, small_weight
     extra = [1] * (values.ndim - 2)
     total = cv2.resize(values * weight.reshape(*weight.shape, *extra), (width, height), interpolation=cv2.INTER_AREA)
-    return small_weight, total / np.maximum(small_weight, 1e-6).reshape(height, width, *extra)
+    return small_weight, total / np.maximum(small_weight, 1e-12).reshape(height, width, *extra)
 
 
 def _core(weight: FloatArray) -> NDArray[np.bool_] | None:
     """The pixels that others copy: well inside the mask, or its best where it is faint everywhere; None: no mask."""
     most = float(weight.max())
-    return weight >= min(0.5, most) if most > 1e-4 else None
+    return weight >= min(0.5, most) if most > 1e-12 else None
 
 
 def _nearest(values: FloatArray, core: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:

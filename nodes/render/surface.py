@@ -1,7 +1,7 @@
 """Draw a mesh into the picture's pixels: which triangle each pixel sees, and where in it.
 
-`cv2.triangleRasterize` decides visibility in C++; flat colours carry the triangle's number out of it. Everything else is
-then computed exactly from that number: barycentric coordinates are affine in the pixel's position, so there is one
+`cv2.triangleRasterize` decides visibility in C++; flat colours carry the triangle's number out of it. Everything else
+is then computed exactly from that number: barycentric coordinates are affine in the pixel's position, so there is one
 small matrix per triangle and no interpolation error from the rasterizer's own arithmetic.
 """
 
@@ -33,14 +33,15 @@ def rasterize(
     Args:
         mesh: triangles counter-clockwise seen from outside; those that turn away from the camera are not drawn.
         photo: gives the size, H x W; its pixels are not read.
-        smoothing: blur of the normals along the picture, in inter-ocular distances: hides the mesh's facets where a light
-            grazes. (On path-traced heads 0.03 costs no accuracy of the normals and gains 0.1 dB in relighting.)
+        smoothing: blur of the normals along the picture, in inter-ocular distances: hides the mesh's facets where a
+            light grazes. (On path-traced heads 0.03 costs no accuracy of the normals and gains 0.1 dB in relighting.)
         area_floor: triangles smaller than this, in square pixels, are left out.
 
     Returns:
         `normals` unit float32 H x W x 3, interpolated between the vertices' normals; `depth` float32 H x W, the camera
         frame's z; `coverage` float32 H x W, 1 where a pixel's centre lies on the mesh; `triangle` int32 H x W and
-        `barycentric` float32 H x W x 3, of the point seen (perspective-correct). Uncovered pixels are 0 (-1 in `triangle`).
+        `barycentric` float32 H x W x 3, of the point seen (perspective-correct). Uncovered pixels are 0 (-1 in
+        `triangle`).
     """
     height, width = photo.height, photo.width
     surface = _nothing_seen(height, width)
@@ -109,9 +110,9 @@ def _visible_triangles(
 ) -> NDArray[np.int32]:
     """Number of the nearest triangle at each pixel of a height x width window, -1 where there is none.
 
-    OpenCV only knows a perspective camera at the origin looking along -z, with the window's corners at +-0.5 pixel beyond
-    the outermost centres. Putting each vertex at its own distance d - z and scaling its x and y by that distance over d
-    lands it on the wanted pixel exactly.
+    OpenCV only knows a perspective camera at the origin looking along -z, with the window's corners at +-0.5 pixel
+    beyond the outermost centres. Putting each vertex at its own distance d - z and scaling its x and y by that
+    distance over d lands it on the wanted pixel exactly.
     """
     import cv2
 
