@@ -50,8 +50,9 @@ def _bend(change: FloatArray, pixels: FloatArray, shoulder: float) -> FloatArray
     room = np.maximum(np.where(change > 0, 1 - pixels, pixels), 0)
     size = np.abs(change)
     free = room * np.float32(1 - shoulder)
-    if shoulder > 0:
-        rest = np.maximum(room - free, np.float32(1e-6))
-        over = np.maximum(size - free, 0)
-        size = np.where(over > 0, free - rest * np.expm1(-over / rest), size)
+    over = size > free
+    if shoulder > 0 and over.any():
+        kept = free[over]
+        rest = np.maximum(room[over] - kept, np.float32(1e-6))
+        size[over] = kept - rest * np.expm1((kept - size[over]) / rest)
     return np.copysign(np.minimum(size, room), change)

@@ -48,7 +48,9 @@ def fit(
         `light`; `residual` shading minus fit, H x W (x 3), 0 off the mask; `condition` of the unridged system, capped
         at 1e12.
     """
-    used = (mask > 0) & np.any(normals != 0, axis=2) & np.isfinite(shading.reshape(*mask.shape, -1)).all(axis=2)
+    used = (mask > 0) & has_surface(normals)
+    if not np.isfinite(shading).all():
+        used &= np.isfinite(shading.reshape(*mask.shape, -1)).all(axis=2)
     channels = shading.shape[2:]
     if not used.any():
         warn("sh.fit: the mask holds no pixel with a normal; took the mean shading of the picture as ambient light")
@@ -83,7 +85,7 @@ def render(light: Lighting, normals: Normals) -> Shading:
     Returns:
         float32, H x W, or H x W x 3 for a coloured light.
     """
-    covered = np.any(normals != 0, axis=2)
+    covered = has_surface(normals)
     values = basis(normals[covered], light.order) @ light.coefficients
     shading = np.zeros((*covered.shape, *light.coefficients.shape[1:]), np.float32)
     shading[covered] = np.maximum(values, 0)
@@ -115,6 +117,12 @@ def basis(normals: NDArray[np.floating[Any]], order: int) -> NDArray[np.floating
             0.590044 * x * (x * x - 3 * y * y),
         ]
     return np.stack(columns, axis=1)
+
+
+def has_surface(normals: Normals) -> NDArray[np.bool_]:
+    """Where a normal map holds a surface, H x W (several times faster than `any` over so short an axis)."""
+    x, y, z = normals[..., 0], normals[..., 1], normals[..., 2]
+    return (x != 0) | (y != 0) | (z != 0)
 
 
 def ambient(irradiance: float | FloatArray, order: int = 0) -> Lighting:

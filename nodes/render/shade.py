@@ -11,7 +11,7 @@ from pydantic import Field
 from graphface import node
 from graphface.nodes.colour import decode_srgb, encode_srgb
 from graphface.nodes.render.scene import HarmonicLight, Scene
-from graphface.nodes.sh import basis
+from graphface.nodes.sh import basis, has_surface
 from graphface.nodes.types import FloatArray, Image, Mask, Normals, Shading
 
 
@@ -43,7 +43,7 @@ def shade(
     Returns:
         float32 in the photo's encoding, H x W, or H x W x 3 where the scene (or the estimate) is coloured.
     """
-    covered = np.any(normals != 0, axis=2)
+    covered = has_surface(normals)
     old = estimated[covered].astype(np.float32, copy=False)
     encoded = photo.encoding == "srgb"
     old = np.maximum(decode_srgb(old) if encoded else old, 0)
