@@ -30,7 +30,7 @@ def decode_srgb(encoded: FloatArray) -> FloatArray:
 
 
 def _encode(size: FloatArray) -> FloatArray:
-    curve: FloatArray = cv2.pow(size, 1 / 2.4).reshape(-1)
+    curve: FloatArray = np.asarray(cv2.pow(size, 1 / 2.4), dtype=np.float32).reshape(-1)
     curve *= np.float32(1.055)
     curve -= np.float32(0.055)
     np.multiply(size, np.float32(12.92), out=curve, where=size <= LINEAR_KNEE)
@@ -38,7 +38,8 @@ def _encode(size: FloatArray) -> FloatArray:
 
 
 def _decode(size: FloatArray) -> FloatArray:
-    curve: FloatArray = cv2.pow((size + np.float32(0.055)) / np.float32(1.055), 2.4).reshape(-1)
+    base = (size + np.float32(0.055)) / np.float32(1.055)
+    curve: FloatArray = np.asarray(cv2.pow(base, 2.4), dtype=np.float32).reshape(-1)
     np.divide(size, np.float32(12.92), out=curve, where=size <= SRGB_KNEE)
     return curve
 

@@ -77,10 +77,12 @@ def facemesh(
             more thoroughly (0.1 s more on a large photo).
         min_score: confidence that a detection needs.
         min_mesh_score: confidence, from the mesh network, that a detection is a face after all.
-        passes: runs of the mesh network, each crop taken from the mesh before.
+        passes: runs of the mesh network, each crop taken from the mesh before. Measured on 15 portraits, the points lie
+            1.9, 1.1 and 0.7 % of the inter-ocular distance from where 5 passes put them after 1, 2 and 3; each takes
+            about 4 ms.
 
     Returns:
-        Points float32 (468, 3): x right, y down, z towards the viewer, all in pixels; z is zero near the head's middle.
+        Points float32 (468, 3): x right, y down, z towards the viewer, all in pixels; z is zero at about the mesh's middle.
 
     Raises:
         NoFaceFound: says everything that was tried.
@@ -101,7 +103,7 @@ def facemesh(
     if index >= len(found):
         raise NoSuchFace(index, len(found))
     if len(tried) > 1:
-        warn(f"the face was found only when looking at the photo {tried[-1]}")
+        warn(f"the face was hard to find: looked at the photo {', '.join(tried)}")
     points, score = found[index]
     return Landmarks(points, "facemesh468", score, len(found))
 

@@ -102,7 +102,7 @@ class TestSamePointsWhateverIsDone:
         """A face of 3 % of the picture is found, and the fallback is said."""
         canvas = np.full((3000, 4000, 3), 0.4, np.float32)
         canvas[1000:1512, 3000:3512] = astronaut.pixels
-        with pytest.warns(GraphfaceWarning, match="found only when looking"):
+        with pytest.warns(GraphfaceWarning, match="hard to find"):
             points = facemesh(Image(canvas)).points
         assert deviation(points[:, :2] - (3000, 1000), found) < 0.03
 

@@ -40,8 +40,8 @@ class TestTightCrops:
 class TestTruth:
     @pytest.mark.parametrize("head", ["gt01", "gt02", "gt03", "gt04", "gt05", "gt06"])
     def test_marks(self, shared, head):
-        """Brows, nose, eyes and lips of the path-traced heads lie within 6 % of the inter-ocular distance (measured 3.6 to
-        4.8; the schemes do not mean quite the same points)."""
+        """Brows, nose, eyes and lips of the path-traced heads lie within 6 % of the inter-ocular distance (measured
+        3.6 to 4.8; the schemes do not mean quite the same points)."""
         folder = shared / "truth" / head
         marks = np.array(json.loads((folder / "meta.json").read_text())["landmarks68"])
         points = ibug68(facemesh(read_image(folder / "frontal.png")))
