@@ -82,7 +82,7 @@ def facemesh(
             about 4 ms.
 
     Returns:
-        Points float32 (468, 3): x right, y down, z towards the viewer, all in pixels; z is zero at about the mesh's middle.
+        Points float32 (468, 3): x right, y down, z towards the viewer, all in pixels; z is zero amid the mesh.
 
     Raises:
         NoFaceFound: says everything that was tried.
