@@ -36,7 +36,7 @@ def multiplicative(
         floor: the least rendering that is divided by; what the bounded ratio cannot explain goes into the offset.
     """
     rendered = rendering(albedo, shading)
-    gain = photo.pixels / np.maximum(rendered, np.float32(floor))
+    gain = (photo.pixels / np.maximum(rendered, np.float32(floor))).astype(np.float32, copy=False)
     return DetailMap(offset=photo.pixels - gain * rendered, gain=gain)
 
 

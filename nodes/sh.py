@@ -122,7 +122,8 @@ def basis(normals: NDArray[np.floating[Any]], order: int) -> NDArray[np.floating
 def has_surface(normals: Normals) -> NDArray[np.bool_]:
     """Where a normal map holds a surface, H x W (several times faster than `any` over so short an axis)."""
     x, y, z = normals[..., 0], normals[..., 1], normals[..., 2]
-    return (x != 0) | (y != 0) | (z != 0)
+    surface: NDArray[np.bool_] = (x != 0) | (y != 0) | (z != 0)
+    return surface
 
 
 def ambient(irradiance: float | FloatArray, order: int = 0) -> Lighting:

@@ -120,5 +120,12 @@ def _relight_head(head: Path, out: Path, encoding: Encoding, method: Method, sho
 def _compared(head: Path, light: str, result: Image, source: Image, mask: Any, normal_error: float) -> Relit:
     truth = read_image(head / f"{light}.png").pixels
     shown, before = np.clip(result.pixels, 0, 1), source.pixels
-    figures = [measure(picture, truth, mask) for picture in (shown, before) for measure in (psnr, si_psnr)]
-    return Relit(head.name, light, *figures, normal_error)
+    return Relit(
+        head=head.name,
+        light=light,
+        psnr=psnr(shown, truth, mask),
+        si_psnr=si_psnr(shown, truth, mask),
+        unchanged_psnr=psnr(before, truth, mask),
+        unchanged_si_psnr=si_psnr(before, truth, mask),
+        normal_error=normal_error,
+    )

@@ -79,21 +79,22 @@ def _mean_shape(shapes: NDArray[np.float64], rounds: int = 5) -> NDArray[np.floa
         mean = _normalized(turned.mean(axis=0))
     across = mean[EYE_CORNERS[1]] - mean[EYE_CORNERS[0]]
     up = mean[FOREHEAD] - mean[CHIN]
-    return mean @ _frame(across, up)
+    upright: NDArray[np.float64] = mean @ _frame(across, up)
+    return upright
 
 
 def _normalized(shape: NDArray[np.float64]) -> NDArray[np.float64]:
     centred = shape - shape.mean(axis=0)
-    size = np.sqrt(np.square(centred).sum(axis=1).mean())
+    size = float(np.sqrt(np.square(centred).sum(axis=1).mean()))
     normalized: NDArray[np.float64] = centred / max(size, 1e-12)
     return normalized
 
 
 def _frame(across: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.float64]:
     """The rotation whose columns are the unit vectors across, up made perpendicular, and towards the viewer."""
-    x = across / max(np.linalg.norm(across), 1e-12)
+    x = across / max(float(np.linalg.norm(across)), 1e-12)
     y = up - x * (x @ up)
-    y /= max(np.linalg.norm(y), 1e-12)
+    y /= max(float(np.linalg.norm(y)), 1e-12)
     return np.stack([x, y, np.cross(x, y)], axis=1)
 
 
@@ -120,7 +121,7 @@ def _triangulate(mean: NDArray[np.float64]) -> NDArray[np.intp]:
 
     angle = np.arctan2(mean[:, 0], mean[:, 2] - _AXIS_DEPTH)
     unrolled = np.stack([angle, mean[:, 1]], axis=1)
-    triangles = Delaunay(unrolled).simplices
+    triangles: NDArray[np.intp] = Delaunay(unrolled).simplices
     a, b = (unrolled[triangles[:, k]] - unrolled[triangles[:, 0]] for k in (1, 2))
     clockwise = a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0]
     triangles[clockwise] = triangles[clockwise][:, ::-1]

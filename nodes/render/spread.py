@@ -48,19 +48,24 @@ def spread(
     import cv2
 
     weight = mask * (surface.coverage > 0)
-    small_weight, small = _shrunk(weight, shading, landmarks.interocular, resolution)
+    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
+    small_weight = _shrunk(weight, scale)
     core = _core(small_weight)
     if core is None:
         warn("render.spread: the mask is empty; the shading is taken as 0 everywhere, so no light changes the picture")
         return np.zeros_like(shading)
+    extra = [1] * (shading.ndim - 2)
+    weight, small_weight = (w.reshape(*w.shape, *extra) for w in (weight, small_weight))
+    small = (_shrunk(weight * shading, scale) / np.maximum(small_weight, 1e-12)).astype(np.float32, copy=False)
     nearest, distance = _nearest(small, core)
-    blur = smoothing * resolution
-    near = cv2.GaussianBlur(nearest, (0, 0), blur, borderType=cv2.BORDER_REPLICATE)
-    far = cv2.GaussianBlur(nearest, (0, 0), 3 * blur, borderType=cv2.BORDER_REPLICATE)
-    t = _smooth_step(distance / (4 * blur)).reshape(*distance.shape, *[1] * (small.ndim - 2))
+    blur = max(smoothing * landmarks.interocular * scale, 0.5)
+    near, far = (
+        np.asarray(cv2.GaussianBlur(nearest, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE), np.float32)
+        for sigma in (blur, 3 * blur)
+    )
+    t = _smooth_step(distance / (4 * blur)).reshape(*distance.shape, *extra)
     beyond = _enlarged(near + (far - near) * t, mask.shape)
-    blend = weight.reshape(*weight.shape, *[1] * (shading.ndim - 2))
-    return beyond + blend * (shading - beyond)
+    return beyond + weight * (shading - beyond)
 
 
 @node("render.background")
@@ -87,12 +92,14 @@ def background(
     """
     if scene.background == 1 or estimated is relit:
         return relit
-    small_weight, _ = _shrunk(mask, None, landmarks.interocular, resolution)
-    core = _core(small_weight)
+    unit = max(landmarks.interocular, 1e-3)
+    scale = min(1.0, resolution / unit)
+    small_mask = _shrunk(mask, scale)
+    core = _core(small_mask)
     if core is None:
         return relit
-    _, distance = _nearest(small_weight, core)
-    fall = _smooth_step((distance / resolution - near) / max(far - near, 1e-3))
+    _, distance = _nearest(small_mask, core)
+    fall = _smooth_step((distance / (unit * scale) - near) / max(far - near, 1e-3))
     share = _enlarged(1 - (1 - scene.background) * fall, mask.shape)
     if estimated.ndim < relit.ndim:
         estimated = estimated[..., None]
@@ -100,20 +107,12 @@ def background(
     return mixed
 
 
-def _shrunk(
-    weight: Mask, values: FloatArray | None, interocular: float, resolution: int
-) -> tuple[FloatArray, FloatArray]:
-    """Area means of the weight, and of the values under that weight, in a copy with the asked resolution."""
+def _shrunk(values: FloatArray, scale: float) -> FloatArray:
+    """Area means in a smaller copy."""
     import cv2
 
-    scale = min(1.0, resolution / max(interocular, 1e-3))
-    height, width = (max(1, round(n * scale)) for n in weight.shape)
-    small_weight = cv2.resize(weight, (width, height), interpolation=cv2.INTER_AREA)
-    if values is None:
-        return small_weight, small_weight
-    extra = [1] * (values.ndim - 2)
-    total = cv2.resize(values * weight.reshape(*weight.shape, *extra), (width, height), interpolation=cv2.INTER_AREA)
-    return small_weight, total / np.maximum(small_weight, 1e-12).reshape(height, width, *extra)
+    height, width = (max(1, round(n * scale)) for n in values.shape[:2])
+    return np.asarray(cv2.resize(values, (width, height), interpolation=cv2.INTER_AREA), np.float32)
 
 
 def _core(weight: FloatArray) -> NDArray[np.bool_] | None:
@@ -126,21 +125,19 @@ def _nearest(values: FloatArray, core: NDArray[np.bool_]) -> tuple[FloatArray, F
     """Each pixel's value from its nearest core pixel, and the distance to it."""
     import cv2
 
-    distance, labels = cv2.distanceTransformWithLabels(
-        (~core).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
-    )
+    outside = (~core).astype(np.uint8)
+    distance, labels = cv2.distanceTransformWithLabels(outside, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
     of_label = np.zeros((int(labels.max()) + 1, *values.shape[2:]), np.float32)
     of_label[labels[core]] = values[core]
-    return of_label[labels], distance
+    return of_label[labels], np.asarray(distance, np.float32)
 
 
 def _smooth_step(t: FloatArray) -> FloatArray:
-    t = np.clip(t, 0, 1).astype(np.float32, copy=False)
-    step: FloatArray = t * t * (3 - 2 * t)
-    return step
+    t = np.clip(t, 0, 1)
+    return t * t * (3 - 2 * t)
 
 
 def _enlarged(values: FloatArray, shape: tuple[int, ...]) -> FloatArray:
     import cv2
 
-    return cv2.resize(values, (shape[1], shape[0]), interpolation=cv2.INTER_LINEAR)
+    return np.asarray(cv2.resize(values, (shape[1], shape[0]), interpolation=cv2.INTER_LINEAR), np.float32)

@@ -45,7 +45,7 @@ def rasterize(
     """
     height, width = photo.height, photo.width
     surface = _nothing_seen(height, width)
-    pixels = mesh.camera.project(mesh.vertices.astype(np.float64))
+    pixels = np.asarray(mesh.camera.project(mesh.vertices.astype(np.float64)), np.float64)
     corners = pixels[mesh.triangles]  # T x 3 x 2
     area = _signed_area(corners)
     usable = np.isfinite(corners).all(axis=(1, 2)) & (area > max(area_floor, np.finfo(np.float64).tiny))
@@ -168,7 +168,7 @@ def _smoothed(normals: FloatArray, covered: NDArray[np.bool_], blur: float) -> F
 
     if blur > 0.3:  # a narrower Gaussian is a single pixel
         # Dividing by the blurred coverage is left to the normalization: it does not turn a vector.
-        normals = cv2.GaussianBlur(normals, (0, 0), blur, borderType=cv2.BORDER_REPLICATE)
+        normals = np.asarray(cv2.GaussianBlur(normals, (0, 0), blur, borderType=cv2.BORDER_REPLICATE), np.float32)
     length = np.sqrt(_sum_of_channels(np.square(normals)))
     return np.where(covered[..., None], normals / np.maximum(length, 1e-6), 0)
 
