@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from graphface.inputs import Bound
 
 Guard = Literal["off", "warn", "error"]
-_Outcome = tuple[Any, NodeError | UsageError | None, float, float, tuple[str, ...]]
+_Outcome = tuple[Any, NodeError | UsageError | None, float, float, list[str]]
 """Value, error, wall seconds, seconds of CPU, warnings."""
 
 
@@ -68,6 +68,7 @@ class Evaluator:
         memory: the memory tier; None memoizes nothing beyond one run.
         disk: a disk tier to look into and to fill.
         threads: how many nodes may run at once.
+        in_flight: bytes of live values above which nodes run one at a time, whatever `threads` says.
         guard: what to do about NaN and infinity in a node's output.
         observers: see `graphface.observe`.
     """
@@ -78,12 +79,14 @@ class Evaluator:
         memory: MemoryTier | None = None,
         disk: DiskTier | None = None,
         threads: int = 1,
+        in_flight: int = 4 << 30,
         guard: Guard = "error",
         observers: Sequence[Observer] = (),
     ) -> None:
         self.memory = memory
         self.disk = disk
         self.threads = max(1, threads)
+        self.in_flight = in_flight
         self.guard = guard
         self.observers = tuple(observers)
         self.finite: dict[int, Any] = {}
@@ -134,15 +137,18 @@ class _Run:
         self._dependents: dict[bytes, list[bytes]] = {}
         self._consumers: dict[bytes, int] = {}
         self._ready: list[bytes] = []
+        self._sizes: dict[bytes, int] = {}
+        self._live = 0
         self._declined: dict[bytes, frozenset[str]] = {}
         self._failed: dict[bytes, NodeError | None] = {}
         self._records: list[Record] = []
         self._on_start = hooks(evaluator.observers, "node_started")
         self._on_finish = hooks(evaluator.observers, "node_finished")
+        self._observed = bool(self._on_finish)
 
     def go(self) -> Result:
         for hook in hooks(self._evaluator.observers, "run_started"):
-            hook(self._graph.names_behind(self._targets.values()))
+            hook(self._graph.steps_behind(self._targets.values()))
         try:
             self._demand([ref.slot for ref in self._targets.values()])
             if self._evaluator.threads == 1:
@@ -261,7 +267,7 @@ class _Run:
 
         with ThreadPoolExecutor(threads, thread_name_prefix="graphface") as pool:
             while self._ready or running:
-                while self._ready and running < threads:
+                while self._ready and running < (threads if self._live <= self._evaluator.in_flight else 1):
                     pool.submit(work, self._ready.pop())
                     running += 1
                 key, outcome = finished.get()
@@ -279,14 +285,17 @@ class _Run:
         said: list[str] = []
         token = fallback.collector.set(said)
         value, error = None, None
-        cpu, start = time.thread_time(), time.perf_counter()
+        cpu = time.thread_time() if self._observed else 0.0
+        start = time.perf_counter()
         try:
             value = self._load(slot) if step is None else self._call(step, key)
         except (NodeError, UsageError) as caught:
             error = caught
-        seconds, cpu = time.perf_counter() - start, time.thread_time() - cpu
+        seconds = time.perf_counter() - start
+        if self._observed:
+            cpu = time.thread_time() - cpu
         fallback.collector.reset(token)
-        return value, error, seconds, cpu, tuple(said)
+        return value, error, seconds, cpu, said
 
     def _load(self, slot: int) -> Any:
         bound = self._bound[slot]
@@ -296,8 +305,12 @@ class _Run:
         return bound.value
 
     def _call(self, step: Step, key: bytes) -> Any:
-        declined = self._declined.get(key, ())
-        arguments = {a.port: None if a.port in declined else self._argument(a) for a in step.arguments}
+        if step.plain is not None:
+            done, keys = self._done, self._keys
+            arguments = {port: done[keys[slot]] for port, slot in step.plain}
+        else:
+            declined = self._declined.get(key, ())
+            arguments = {a.port: None if a.port in declined else self._argument(a) for a in step.arguments}
         try:
             value = step.operator.function(**arguments, **step.parameters)
         except Exception as error:
@@ -345,24 +358,29 @@ class _Run:
         if error is not None:
             self._fail(key, error, seconds)
             return
-        arrays = freeze(value, self._lent)
+        arrays = freeze(value, self._lent) if type(value) is not float else ()
         self._done[key] = value
-        self._keep(key, step, value, seconds, arrays)
-        size = sum([a.nbytes for a in arrays]) if arrays else 0
-        record = Record(self._name(slot), _operator_name(step), "ran", key, seconds, cpu, size, "", said)
+        if not self._lent or not any(id(a) in self._lent for a in arrays):
+            self._keep(key, step, value, seconds, arrays)
+        size = 0
+        if arrays:
+            size = self._sizes[key] = sum([a.nbytes for a in arrays])
+            self._live += size
+        record = Record(self._name(slot), _operator_name(step), "ran", key, seconds, cpu, size, "", said or ())
         self._report(record, step, value)
         self._arrived(key)
         if step is not None:
             self._release(step)
 
     def _keep(self, key: bytes, step: Step | None, value: Any, seconds: float, arrays: tuple[Any, ...]) -> None:
-        if self._lent and any(id(a) in self._lent for a in arrays):
-            return
+        """Memoize a value; what shares memory with the caller's arrays never gets here, since they may change."""
         evaluator = self._evaluator
         if evaluator.memory is not None:
             evaluator.memory.put(key, value, seconds, arrays)
         if evaluator.disk is not None and step is not None:
-            evaluator.disk.put(key, value, cost_seconds=seconds, meta={"operator": step.operator.name})
+            meta = {"operator": step.operator.name}
+            annotation = step.operator.output_annotation
+            evaluator.disk.put(key, value, cost_seconds=seconds, meta=meta, annotation=annotation)
 
     def _release(self, step: Step) -> None:
         """Let go of values that no step of this run waits for any more; demanding one again looks it up again."""
@@ -372,6 +390,7 @@ class _Run:
             consumers[key] -= 1
             if consumers[key] == 0 and key not in self._kept and key in self._done:
                 del self._done[key], self._slots[key]
+                self._live -= self._sizes.pop(key, 0)
 
     def _fail(self, key: bytes, error: NodeError | None, seconds: float = 0.0) -> None:
         """Note a failure and everything below that it blocks."""

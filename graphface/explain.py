@@ -159,7 +159,7 @@ def with_results(
         milliseconds = record.seconds * 1e3 if record.state in _RAN else None
         joined.append(
             Explained(
-                entry.name, entry.operator, record.state, reason, entry.key, milliseconds, record.bytes, record.warnings
+                entry.name, entry.operator, record.state, reason, entry.key, milliseconds, record.bytes, tuple(record.warnings)
             )
         )
     return joined

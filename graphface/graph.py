@@ -171,9 +171,10 @@ class Graph:
                     stack.extend((*self.steps[slot - first].eager, *self.steps[slot - first].lazy))
         return sorted(seen)
 
-    def names_behind(self, targets: Iterable[Ref]) -> list[str]:
+    def steps_behind(self, targets: Iterable[Ref]) -> list[Step]:
+        """The nodes among `behind`."""
         first = len(self.inputs)
-        return [self.steps[s - first].name for s in self.behind(targets) if s >= first]
+        return [self.steps[slot - first] for slot in self.behind(targets) if slot >= first]
 
     def missing(self, given: Mapping[str, Any], targets: Iterable[Ref]) -> list[str]:
         """Inputs that `targets` may need and that are neither given nor have a default."""
@@ -193,6 +194,19 @@ class Graph:
                 for ref in argument.refs:
                     drawn.add_edge(names[ref.slot], step.name, port=argument.port, lazy=argument.lazy)
         return drawn
+
+    def _repr_html_(self) -> str:
+        """A notebook's view: inputs, every node with its operator and what is plugged into it, outputs."""
+        from html import escape
+
+        names = [*self.inputs, *(step.name for step in self.steps)]
+        rows = [f"<tr><td><b>{escape(i.name)}</b></td><td>input: {escape(str(i.type))}</td><td></td></tr>" for i in self.inputs.values()]
+        for step in self.steps:
+            wires = [f"{a.port} = {', '.join('.'.join((names[r.slot], *r.fields)) for r in a.refs)}" for a in step.arguments]
+            cells = (f"<b>{escape(step.name)}</b>", escape(step.operator.name), escape("; ".join(wires)))
+            rows.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
+        title = f"{escape(self.name)}: {escape(', '.join(self.outputs))}"
+        return f"<table><caption>{title}</caption>{''.join(rows)}</table>"
 
     def _input_at(self, slot: int) -> GraphInput:
         return self.inputs[self.input_names[slot]]

@@ -20,7 +20,8 @@ class Record:
     """What became of one node or input in a run.
 
     `state`: "ran"; found in "memory" or on "disk"; "failed"; "blocked" by a failure above it; "declined" by the only
-    nodes that could have used it, for the `reason` given. `seconds` is wall time, `cpu` that of its thread.
+    nodes that could have used it, for the `reason` given. `seconds` is wall time, `cpu` that of its thread (measured
+    where an observer listens).
     """
 
     name: str
@@ -31,14 +32,14 @@ class Record:
     cpu: float = 0.0
     bytes: int = 0
     reason: str = ""
-    warnings: tuple[str, ...] = ()
+    warnings: Sequence[str] = ()
 
 
 class Observer:
     """Base of observers; every hook does nothing. Hooks run on the thread that called `run`, except `node_started`."""
 
-    def run_started(self, names: Sequence[str]) -> None:
-        """A run begins; `names` are the nodes that may run or be looked up."""
+    def run_started(self, steps: Sequence[Step]) -> None:
+        """A run begins; `steps` are the nodes that may run or be looked up."""
 
     def node_started(self, name: str, step: Step | None) -> None:
         """A node's function (or, with no step, an input's file) is about to be evaluated."""

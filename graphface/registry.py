@@ -125,7 +125,7 @@ class Registry:
         return PortType(tuple(atoms), optional or atoms == [object])
 
     def type_names(self) -> list[str]:
-        return sorted({*_BUILTIN_TYPES, *(name for pack in self._packs for name in pack.types)})
+        return sorted({"Array", *_BUILTIN_TYPES, *(name for pack in self._packs for name in pack.types)})
 
     def extended(self) -> Registry:
         """A registry with everything of this one, to which more can be added without changing this one."""
@@ -153,6 +153,10 @@ class Registry:
     def _named_type(self, name: str) -> PortType:
         if name == "Any":
             return ANY
+        if name == "Array":
+            import numpy as np
+
+            return port_type(np.ndarray)
         if name in _BUILTIN_TYPES:
             return port_type(_BUILTIN_TYPES[name])
         for pack in self._packs:

@@ -8,28 +8,34 @@ from types import TracebackType
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
 from graphface.explain import Explained
 from graphface.node import Operator
 from graphface.observe import Observer, Record
 from graphface.plan import Planned
+from graphface.timings import Timings
 from graphface.wiring import Step
 
 _FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yellow", "skipped": "dim", "ran": "green"}
 
 
 class ProgressBar(Observer):
-    """A bar of nodes done, naming the one that runs; silent where standard error is not a terminal."""
+    """A bar that grows with time, naming the node that runs; silent where standard error is not a terminal.
+
+    A node's share of the bar is what its operator took in earlier runs (`graphface.timings`), so that the time left means
+    something when one node takes as long as all others.
+    """
 
     def __init__(self, title: str = "") -> None:
-        columns = (TextColumn("{task.description:28}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+        columns = (TextColumn("{task.description:32}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
         self._progress = Progress(
             *columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()
         )
         self._title = title
-        self._task: Any = None
+        self._timings = Timings.load()
+        self._task: TaskID | None = None
 
     def __enter__(self) -> ProgressBar:
         self._progress.start()
@@ -40,10 +46,11 @@ class ProgressBar(Observer):
     ) -> None:
         self._progress.stop()
 
-    def run_started(self, names: Sequence[str]) -> None:
+    def run_started(self, steps: Sequence[Step]) -> None:
         if self._task is not None:
             self._progress.remove_task(self._task)
-        self._task = self._progress.add_task(self._title, total=len(names))
+        total = sum(self._timings.expected(step.operator.name) for step in steps)
+        self._task = self._progress.add_task(self._title, total=total)
 
     def node_started(self, name: str, step: Step | None) -> None:
         if self._task is not None:
@@ -51,7 +58,10 @@ class ProgressBar(Observer):
 
     def node_finished(self, record: Record, step: Step | None, value: Any) -> None:
         if self._task is not None and step is not None:
-            self._progress.advance(self._task)
+            self._progress.advance(self._task, self._timings.expected(step.operator.name))
+
+    def run_finished(self, records: Sequence[Record]) -> None:
+        self._timings.learn(records)
 
 
 def print_times(records: Sequence[Record], title: str = "") -> None:

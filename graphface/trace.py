@@ -42,7 +42,7 @@ class Trace(Observer):
         self.peaks: dict[str, int] = {}
         self._measure = peaks
 
-    def run_started(self, names: Sequence[str]) -> None:
+    def run_started(self, steps: Sequence[Step]) -> None:
         if self._measure:
             tracemalloc.start()
 

@@ -56,7 +56,11 @@ class GraphInput:
 
 @dataclass(eq=False)
 class Step:
-    """One node, ready to run."""
+    """One node, ready to run.
+
+    `eager` and `lazy` are the slots behind its ports; `plain` pairs ports with slots where every port is eager and takes
+    one whole value, which is the common case and the fast one.
+    """
 
     slot: int
     name: str
@@ -67,10 +71,13 @@ class Step:
     place: Place
     eager: tuple[int, ...] = field(init=False)
     lazy: tuple[int, ...] = field(init=False)
+    plain: tuple[tuple[str, int], ...] | None = field(init=False)
 
     def __post_init__(self) -> None:
         self.eager = tuple(dict.fromkeys(r.slot for a in self.arguments if not a.lazy for r in a.refs))
         self.lazy = tuple(dict.fromkeys(r.slot for a in self.arguments if a.lazy for r in a.refs))
+        simple = all(len(a.refs) == 1 and not (a.lazy or a.is_list or a.refs[0].fields) for a in self.arguments)
+        self.plain = tuple((a.port, a.refs[0].slot) for a in self.arguments) if simple else None
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -57,11 +58,12 @@ def run(
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
-    files = output_files(loaded, output)
+    given = read_inputs(inputs)
+    files = output_files(loaded, output, given)
     for path in (*files.values(), *([trace] if trace else [])):
         check_folder(path)
     targets = loaded.targets(files)
-    bound = loaded.bind(read_inputs(inputs))
+    bound = loaded.bind(given)
     said: list[str] = []
     tracer = Trace()
     with ProgressBar() as bar:
@@ -85,18 +87,20 @@ def run(
         print_times(result.records)
 
 
-def output_files(graph: Graph, given: list[str]) -> dict[str, Path]:
+def output_files(graph: Graph, asked: list[str], given: dict[str, str]) -> dict[str, Path]:
     """Output name to file; a bare FILE is the graph's first output.
 
+    {photo} in a file name stands for the name of the file given for input `photo`, without folder and suffix.
+
     Raises:
-        UsageError: no output was given, or one twice.
+        UsageError: no output was asked for, one twice, or a file name says {something} that is no input given.
     """
     from graphface.errors import UsageError
 
-    if not given:
+    if not asked:
         raise UsageError(f"no output asked for; add -o FILE, or -o NAME=FILE (outputs: {', '.join(graph.outputs)})")
     files: dict[str, Path] = {}
-    for text in given:
+    for text in asked:
         name, equals, file = text.partition("=")
         if not equals:
             if not graph.outputs:
@@ -104,5 +108,18 @@ def output_files(graph: Graph, given: list[str]) -> dict[str, Path]:
             name, file = next(iter(graph.outputs)), text
         if name in files:
             raise UsageError(f"-o {text}: output {name!r} is asked for twice")
-        files[name] = Path(file)
+        files[name] = Path(_filled(file, given))
     return files
+
+
+def _filled(template: str, given: dict[str, str]) -> str:
+    """A file name with its {input} places filled; what is put in never holds a separator, so it stays in its folder."""
+    from graphface.errors import UsageError
+
+    def stem(match: re.Match[str]) -> str:
+        name = match.group(1)
+        if name not in given:
+            raise UsageError(f"-o {template}: no input {name!r} was given (given: {', '.join(given) or 'none'})")
+        return re.sub(r"[^\w.-]", "_", Path(given[name]).stem).lstrip(".") or "_"
+
+    return re.sub(r"\{([^{}]*)\}", stem, template)
