@@ -99,17 +99,28 @@ class NodeError(RunError):
     Attributes:
         node, operator: their names. place: where the graph file states the node.
         inputs: port to a short description of the value it got (shape, dtype, range).
+        files: the files given for graph inputs that it depends on.
     """
 
-    def __init__(self, node: str, operator: str, place: Place | None, reason: str, inputs: dict[str, str]) -> None:
+    def __init__(
+        self,
+        node: str,
+        operator: str,
+        place: Place | None,
+        reason: str,
+        inputs: dict[str, str],
+        files: Sequence[str] = (),
+    ) -> None:
         self.node = node
         self.operator = operator
         self.place = place
         self.reason = reason
         self.inputs = inputs
+        self.files = list(files)
         where = f"{place}: " if place is not None else ""
         lines = [f"{where}node {node!r} ({operator}) failed: {reason}"]
         lines += [f"    {port}: {shown}" for port, shown in inputs.items()]
+        lines += [f"    from {', '.join(self.files)}"] if self.files else []
         super().__init__("\n".join(lines))
 
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from graphface.inputs import Bound
 
 Guard = Literal["off", "warn", "error"]
-_Outcome = tuple[Any, NodeError | UsageError | None, float, float, list[str]]
+_Outcome = tuple[Any, BaseException | None, float, float, list[str]]
 """Value, error, wall seconds, seconds of CPU, warnings."""
 
 
@@ -139,7 +139,11 @@ class _Run:
         self._ready: list[bytes] = []
         self._sizes: dict[bytes, int] = {}
         self._live = 0
+        self._wanted: list[int] = []
+        self._decisions = dict(graph.decisions)
         self._declined: dict[bytes, frozenset[str]] = {}
+        self._undecided: set[bytes] = set()
+        self._spent: list[bytes] = []
         self._failed: dict[bytes, NodeError | None] = {}
         self._records: list[Record] = []
         self._on_start = hooks(evaluator.observers, "node_started")
@@ -150,7 +154,8 @@ class _Run:
         for hook in hooks(self._evaluator.observers, "run_started"):
             hook(self._graph.steps_behind(self._targets.values()))
         try:
-            self._demand([ref.slot for ref in self._targets.values()])
+            self._wanted += [ref.slot for ref in self._targets.values()]
+            self._demand()
             if self._evaluator.threads == 1:
                 self._loop_inline()
             else:
@@ -170,8 +175,8 @@ class _Run:
 
     # --- demand -----------------------------------------------------------------------------------
 
-    def _demand(self, slots: Sequence[int]) -> None:
-        """See to it that slots get their values: look each up, or demand what it needs."""
+    def _demand(self) -> None:
+        """See to it that the slots in `_wanted` get their values: look each up, or demand what it needs."""
         keys, demanded, find, first, steps = (
             self._keys,
             self._slots,
@@ -179,7 +184,7 @@ class _Run:
             self._first,
             self._graph.steps,
         )
-        stack = list(slots)
+        stack = self._wanted
         while stack:
             slot = stack.pop()
             key = keys[slot]
@@ -195,10 +200,31 @@ class _Run:
             elif step is None:
                 self._ready.append(key)
             else:
+                above = step.eager
+                if step.lazy:
+                    above = self._demand_lazy(key, step)
                 for parent in (*step.eager, *step.lazy):
                     self._consumers[keys[parent]] = self._consumers.get(keys[parent], 0) + 1
-                self._await(key, step.eager)
-                stack.extend(step.eager)
+                self._await(key, above)
+                stack.extend(above)
+        if self._spent and not self._undecided:
+            self._let_go()
+
+    def _demand_lazy(self, key: bytes, step: Step) -> tuple[int, ...]:
+        """The slots that a step with lazy ports needs as far as is known before its eager inputs are there."""
+        decided = self._decisions.get(step.slot)
+        if decided is None:
+            self._undecided.add(key)
+            return step.eager
+        return (*step.eager, *self._settle(key, step, decided))
+
+    def _settle(self, key: bytes, step: Step, declined: Mapping[str, str]) -> tuple[int, ...]:
+        """Note which lazy ports a step declines; the slots behind those that it wants."""
+        self._declined[key] = frozenset(declined)
+        for port, reason in declined.items():
+            self._report(Record(f"{step.name}.{port}", step.operator.name, "declined", key, reason=reason), step, None)
+        wanted = (r.slot for a in step.arguments if a.lazy and a.port not in declined for r in a.refs)
+        return tuple(dict.fromkeys(wanted))
 
     def _await(self, key: bytes, above: Sequence[int]) -> None:
         """Make a step ready once every slot above it has its value."""
@@ -232,22 +258,15 @@ class _Run:
             self._ready.append(key)
             return
         try:
-            declined = self._ask(step)
+            eager = {a.port: self._argument(a) for a in step.arguments if not a.lazy}
+            declined = declined_with(step, eager)
         except Exception as error:
             self._fail(key, self._node_error(step, error, {}))
             return
-        self._declined[key] = frozenset(declined)
-        for port, reason in declined.items():
-            self._report(Record(f"{step.name}.{port}", step.operator.name, "declined", key, reason=reason), step, None)
-        wanted = [r.slot for a in step.arguments if a.lazy and a.port not in declined for r in a.refs]
-        self._await(key, tuple(dict.fromkeys(wanted)))
-        self._demand(wanted)
-
-    def _ask(self, step: Step) -> Mapping[str, str]:
-        known = self._graph.decisions.get(step.slot)
-        if known is not None:
-            return known
-        return declined_with(step, {a.port: self._argument(a) for a in step.arguments if not a.lazy})
+        self._undecided.discard(key)
+        wanted = self._settle(key, step, declined)
+        self._await(key, wanted)
+        self._wanted += wanted  # demanded by whoever called: recursion would be as deep as a chain of lazy ports
 
     # --- loops ------------------------------------------------------------------------------------
 
@@ -277,19 +296,19 @@ class _Run:
     # --- one node, on any thread ------------------------------------------------------------------
 
     def _evaluate(self, key: bytes) -> _Outcome:
-        """Run one step or load one input."""
+        """Run one step or load one input. Raises nothing: a worker that ended silently would leave the run waiting."""
         slot = self._slots[key]
         step = self._graph.steps[slot - self._first] if slot >= self._first else None
-        for hook in self._on_start:
-            hook(self._name(slot), step)
         said: list[str] = []
         token = fallback.collector.set(said)
         value, error = None, None
         cpu = time.thread_time() if self._observed else 0.0
         start = time.perf_counter()
         try:
+            for hook in self._on_start:
+                hook(self._name(slot), step)
             value = self._load(slot) if step is None else self._call(step, key)
-        except (NodeError, UsageError) as caught:
+        except BaseException as caught:
             error = caught
         seconds = time.perf_counter() - start
         if self._observed:
@@ -298,11 +317,15 @@ class _Run:
         return value, error, seconds, cpu, said
 
     def _load(self, slot: int) -> Any:
-        bound = self._bound[slot]
+        bound, name = self._bound[slot], self._name(slot)
         if bound is None:
-            name = self._name(slot)
             raise InputError(name, f"this input ({self._graph.inputs[name].type}) is needed and was not given")
-        return bound.value
+        try:
+            return bound.value
+        except GraphfaceError:
+            raise
+        except Exception as error:
+            raise InputError(name, f"{bound.origin} cannot be read: {type(error).__name__}: {error}") from error
 
     def _call(self, step: Step, key: bytes) -> Any:
         if step.plain is not None:
@@ -310,7 +333,8 @@ class _Run:
             arguments = {port: done[keys[slot]] for port, slot in step.plain}
         else:
             declined = self._declined.get(key, ())
-            arguments = {a.port: None if a.port in declined else self._argument(a) for a in step.arguments}
+            plugged = {a.port: None if a.port in declined else self._argument(a) for a in step.arguments}
+            arguments = {**step.absent, **plugged}
         try:
             value = step.operator.function(**arguments, **step.parameters)
         except Exception as error:
@@ -338,20 +362,27 @@ class _Run:
             fallback.warn(f"its output {found}")
             return
         shown = {port: describe(value) for port, value in arguments.items()}
-        raise NonFiniteError(step.name, step.operator.name, step.place, f"its output {found}", shown)
+        raise NonFiniteError(
+            step.name, step.operator.name, step.place, f"its output {found}", shown, self._files_behind(step)
+        )
 
     def _node_error(self, step: Step, error: Exception, arguments: Mapping[str, Any]) -> NodeError:
         reason = str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"
         shown = {port: describe(value) for port, value in arguments.items()}
-        failure = NodeError(step.name, step.operator.name, step.place, reason, shown)
+        failure = NodeError(step.name, step.operator.name, step.place, reason, shown, self._files_behind(step))
         failure.__cause__ = error
         return failure
+
+    def _files_behind(self, step: Step) -> list[str]:
+        """The files given for the graph inputs that a step depends on."""
+        inputs = (self._bound[slot] for slot in self._graph.behind([Ref(step.slot)]) if slot < self._first)
+        return [bound.origin for bound in inputs if bound is not None and bound.is_file]
 
     # --- bookkeeping, on the calling thread -------------------------------------------------------
 
     def _finish(self, key: bytes, outcome: _Outcome) -> None:
         value, error, seconds, cpu, said = outcome
-        if isinstance(error, UsageError):
+        if error is not None and not isinstance(error, NodeError):
             raise error
         slot = self._slots[key]
         step = self._graph.steps[slot - self._first] if slot >= self._first else None
@@ -369,6 +400,8 @@ class _Run:
         record = Record(self._name(slot), _operator_name(step), "ran", key, seconds, cpu, size, "", said or ())
         self._report(record, step, value)
         self._arrived(key)
+        if self._wanted or self._spent:
+            self._demand()
         if step is not None:
             self._release(step)
 
@@ -383,14 +416,22 @@ class _Run:
             evaluator.disk.put(key, value, cost_seconds=seconds, meta=meta, annotation=annotation)
 
     def _release(self, step: Step) -> None:
-        """Let go of values that no step of this run waits for any more; demanding one again looks it up again."""
+        """Let go of values that no step of this run waits for any more, once no rule can ask for them again."""
         consumers, keys = self._consumers, self._keys
         for slot in (*step.eager, *step.lazy) if step.lazy else step.eager:
             key = keys[slot]
             consumers[key] -= 1
             if consumers[key] == 0 and key not in self._kept and key in self._done:
+                self._spent.append(key)
+        if self._spent and not self._undecided:
+            self._let_go()
+
+    def _let_go(self) -> None:
+        for key in self._spent:
+            if self._consumers[key] == 0 and key in self._done:
                 del self._done[key], self._slots[key]
                 self._live -= self._sizes.pop(key, 0)
+        self._spent.clear()
 
     def _fail(self, key: bytes, error: NodeError | None, seconds: float = 0.0) -> None:
         """Note a failure and everything below that it blocks."""
@@ -401,6 +442,7 @@ class _Run:
                 continue
             self._failed[current] = failure
             self._waiting.pop(current, None)
+            self._undecided.discard(current)
             step = self._step(current)
             state: State = "failed" if failure is not None else "blocked"
             reason = failure.reason if failure is not None else ""
@@ -424,6 +466,9 @@ def _operator_name(step: Step | None) -> str:
 
 
 def _take(value: Any, fields: Sequence[str]) -> Any:
+    """`value.field.field...`; None where one on the way is None, as the type of such a reference says."""
     for name in fields:
+        if value is None:
+            return None
         value = getattr(value, name)
     return value

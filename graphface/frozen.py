@@ -77,6 +77,8 @@ def first_non_finite(value: Any, known: dict[int, weakref.ref[Any]]) -> str | No
         return None if math.isfinite(value) else f"is {value}"
     if kind in _SCALARS:
         return None
+    if isinstance(value, np.inexact):
+        return None if np.isfinite(value) else f"is {value}"
     for path, array in arrays_in(value):
         if array.dtype.kind not in "fc" or array.size == 0:
             continue

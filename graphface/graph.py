@@ -150,7 +150,10 @@ class Graph:
         digests = [b.digest if b is not None else b"missing" for b in ordered]
 
         def decide(step: Step) -> frozenset[str]:
-            found = declined_now(step, ordered)
+            try:
+                found = declined_now(step, ordered)
+            except Exception:  # asked again in the run, where its failure is that of a node with a name and a place
+                found = None
             if found is None:
                 self.decisions.pop(step.slot, None)
                 return frozenset()

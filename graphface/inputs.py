@@ -7,8 +7,9 @@ write to them, a value that shares their memory is never memoized (`Bound.borrow
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ import numpy as np
 
 from graphface.cache.digest import digest_file, digest_value
 from graphface.errors import InputError, UnreadableFile, nearest_names
-from graphface.frozen import arrays_in, buffer_of, freeze
+from graphface.frozen import arrays_in, buffer_of, field_names, freeze
 from graphface.located import scalar
 from graphface.values import ArrayType, Atom, PortType
 from graphface.wiring import GraphInput
@@ -34,6 +35,7 @@ class Bound:
     origin: str
     load: Callable[[], Any] = field(repr=False)
     borrowed: frozenset[int] = frozenset()
+    is_file: bool = False
 
     @cached_property
     def value(self) -> Any:
@@ -113,7 +115,7 @@ def _bind_file(entry: GraphInput, path: Path, reader: Reader, stat_shortcut: boo
     except OSError as error:
         raise UnreadableFile(path, f"{error.strerror or error} (input {entry.name!r})") from None
     digest = digest_value(("file", str(entry.type), _code_of(reader), content))
-    return Bound(entry.name, digest, str(path), lambda: reader(path))
+    return Bound(entry.name, digest, str(path), lambda: reader(path), is_file=True)
 
 
 def _bind_object(entry: GraphInput, value: Any) -> Bound:
@@ -122,7 +124,7 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
     def load() -> Any:
         try:
             return _read_only(declared.coerce(value))
-        except ValueError as error:
+        except (ValueError, TypeError) as error:
             raise InputError(entry.name, str(error)) from None
 
     if value is not None and declared.problem(value) is not None and not _coercible(declared):
@@ -137,20 +139,29 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
 
 
 def _read_only(value: Any) -> Any:
-    """The same value over read-only views; the caller's own arrays keep their flags."""
+    """The same value over read-only views; the caller's own arrays, at any depth, keep their flags."""
+    if next(arrays_in(value), None) is None:
+        return value
     if isinstance(value, np.ndarray):
         view = value.view()
         view.flags.writeable = False
         return view
-    changed = {}
-    for path, array in arrays_in(value):
-        if array.flags.writeable and path.isidentifier() and hasattr(value, path):
-            changed[path] = _read_only(array)
-    return replace(value, **changed) if changed else value
+    if isinstance(value, Mapping):
+        return {key: _read_only(item) for key, item in value.items()}
+    if isinstance(value, tuple) and hasattr(value, "_make"):
+        return value._make(_read_only(item) for item in value)
+    if isinstance(value, list | tuple):
+        return type(value)(_read_only(item) for item in value)
+    viewing = copy.copy(value)
+    for name in field_names(type(value)):
+        object.__setattr__(viewing, name, _read_only(getattr(value, name)))
+    return viewing
 
 
 def _from_text(value: Any, declared: PortType) -> Any:
-    """A number or flag given as text on the command line, where the type is no text."""
+    """A number, flag or path given as text on the command line, where the type is no text."""
+    if isinstance(value, str) and Path in declared.alternatives:
+        return Path(value)
     if isinstance(value, str) and str not in declared.alternatives:
         return scalar(value)
     return value

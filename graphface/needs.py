@@ -26,7 +26,11 @@ def declined_with(step: Step, eager: Mapping[str, Any]) -> dict[str, str]:
         return {}
     known = {**{p.name: None for p in step.operator.inputs.values() if not p.lazy}, **eager, **step.parameters}
     answers = rule(**{name: known[name] for name in step.operator.rule_arguments})
-    return {port: str(answer) for port, answer in answers.items() if answer is not True}
+    return {
+        port: answer if isinstance(answer, str) else "its rule does not want it"
+        for port, answer in answers.items()
+        if isinstance(answer, str) or not answer
+    }
 
 
 def declined_now(step: Step, bound: Sequence[Bound | None]) -> dict[str, str] | None:

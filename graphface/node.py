@@ -94,6 +94,12 @@ class Operator:
         return ports
 
     @cached_property
+    def needs_none(self) -> tuple[str, ...]:
+        """The optional ports for which the signature has no default: they are given None where nothing is plugged in."""
+        defaults = self._signature.parameters
+        return tuple(p.name for p in self.inputs.values() if not p.required and defaults[p.name].default is inspect.Parameter.empty)
+
+    @cached_property
     def output(self) -> PortType:
         return port_type(self._hints["return"])
 

@@ -72,12 +72,14 @@ class Step:
     eager: tuple[int, ...] = field(init=False)
     lazy: tuple[int, ...] = field(init=False)
     plain: tuple[tuple[str, int], ...] | None = field(init=False)
+    absent: dict[str, None] = field(init=False)
 
     def __post_init__(self) -> None:
         self.eager = tuple(dict.fromkeys(r.slot for a in self.arguments if not a.lazy for r in a.refs))
         self.lazy = tuple(dict.fromkeys(r.slot for a in self.arguments if a.lazy for r in a.refs))
         simple = all(len(a.refs) == 1 and not (a.lazy or a.is_list or a.refs[0].fields) for a in self.arguments)
-        self.plain = tuple((a.port, a.refs[0].slot) for a in self.arguments) if simple else None
+        self.absent = {port: None for port in self.operator.needs_none if all(a.port != port for a in self.arguments)}
+        self.plain = tuple((a.port, a.refs[0].slot) for a in self.arguments) if simple and not self.absent else None
 
 
 @dataclass(frozen=True)
@@ -98,14 +100,18 @@ def wire(composition: Composition, registry: Registry) -> Wiring:
 
 
 def field_type(annotation: PortType, fields: tuple[str, ...]) -> PortType | None:
-    """The type of `value.field.field...`, or None where there is no such field."""
+    """The type of `value.field.field...`, or None where an alternative has no such field.
+
+    A field of a value that may be None may be None too: there is nothing to take it from.
+    """
     current = annotation
     for name in fields:
-        offered = [output_fields(a) for a in current.alternatives if isinstance(a, type)]
-        found = next((ports[name] for ports in offered if name in ports), None)
-        if found is None:
+        offered = [output_fields(a) if isinstance(a, type) else {} for a in current.alternatives]
+        if not all(name in ports for ports in offered):
             return None
-        current = found
+        atoms = dict.fromkeys(atom for ports in offered for atom in ports[name].alternatives)
+        optional = current.optional or any(ports[name].optional for ports in offered)
+        current = PortType(tuple(atoms), optional)
     return current
 
 

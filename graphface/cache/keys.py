@@ -68,6 +68,13 @@ class KeyTable:
             digests: of the graph inputs, in slot order.
             decide: asked about every step with lazy ports whose inputs changed.
         """
+        try:
+            return self._update(digests, decide)
+        except BaseException:  # interrupted half-way, the keys are those of no inputs at all
+            self._statics = []
+            raise
+
+    def _update(self, digests: Sequence[bytes], decide: Decide) -> list[bytes]:
         everything = self._refresh_code()
         keys, first = self.keys, self._first
         dirty = bytearray(len(keys))

@@ -87,7 +87,8 @@ def _message(error: Exception) -> str:
     told = []
     for failure in error.failures[:5]:
         explained = isinstance(failure.__cause__, GraphfaceError)
-        told.append(f"node {failure.node!r}: {failure.reason}" if explained else str(failure))
+        files = f"{', '.join(failure.files)}: " if failure.files else ""
+        told.append(f"{files}node {failure.node!r}: {failure.reason}" if explained else str(failure))
     if len(error.failures) > 5:
         told.append(f"and {len(error.failures) - 5} more")
     return "\n".join(told)
