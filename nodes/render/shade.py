@@ -29,8 +29,8 @@ def shade(
 
     Light adds up linearly. Where the photo's values are sRGB-encoded the estimated shading is decoded, the sum formed,
     and the result encoded: for a power law encode(albedo * irradiance) = encode(albedo) * encode(irradiance), so
-    encoded albedo goes with encoded irradiance. (On path-traced heads this relights about 2 dB better than working on
-    linear values throughout, and 8 dB better than Lambert's cosine on encoded ones.)
+    encoded albedo goes with encoded irradiance. (Path-traced heads, true normals, left45, scale-invariant PSNR: 27.4 dB
+    this way, 24.2 with linear values throughout, 20.2 with Lambert's cosine taken for encoded values.)
 
     Args:
         normals: H x W x 3; pixels without surface get 0.
