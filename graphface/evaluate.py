@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from graphface import fallback
 from graphface.cache.memory import MISSING, MemoryTier
-from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError, RunFailed, UsageError
+from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError, RunFailed
 from graphface.frozen import describe, first_non_finite, freeze
 from graphface.needs import declined_with
 from graphface.observe import Observer, Record, State, hooks

@@ -203,9 +203,14 @@ class Graph:
         from html import escape
 
         names = [*self.inputs, *(step.name for step in self.steps)]
-        rows = [f"<tr><td><b>{escape(i.name)}</b></td><td>input: {escape(str(i.type))}</td><td></td></tr>" for i in self.inputs.values()]
+        rows = [
+            f"<tr><td><b>{escape(i.name)}</b></td><td>input: {escape(str(i.type))}</td><td></td></tr>"
+            for i in self.inputs.values()
+        ]
         for step in self.steps:
-            wires = [f"{a.port} = {', '.join('.'.join((names[r.slot], *r.fields)) for r in a.refs)}" for a in step.arguments]
+            wires = [
+                f"{a.port} = {', '.join('.'.join((names[r.slot], *r.fields)) for r in a.refs)}" for a in step.arguments
+            ]
             cells = (f"<b>{escape(step.name)}</b>", escape(step.operator.name), escape("; ".join(wires)))
             rows.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
         title = f"{escape(self.name)}: {escape(', '.join(self.outputs))}"

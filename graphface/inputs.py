@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ import numpy as np
 
 from graphface.cache.digest import digest_file, digest_value
 from graphface.errors import InputError, UnreadableFile, nearest_names
-from graphface.frozen import arrays_in, buffer_of, field_names, freeze
+from graphface.frozen import arrays_in, buffer_of, freeze
 from graphface.located import scalar
 from graphface.values import ArrayType, Atom, PortType
 from graphface.wiring import GraphInput
@@ -153,8 +153,8 @@ def _read_only(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return type(value)(_read_only(item) for item in value)
     viewing = copy.copy(value)
-    for name in field_names(type(value)):
-        object.__setattr__(viewing, name, _read_only(getattr(value, name)))
+    for part in fields(value):
+        object.__setattr__(viewing, part.name, _read_only(getattr(value, part.name)))
     return viewing
 
 

@@ -95,9 +95,10 @@ class Operator:
 
     @cached_property
     def needs_none(self) -> tuple[str, ...]:
-        """The optional ports for which the signature has no default: they are given None where nothing is plugged in."""
-        defaults = self._signature.parameters
-        return tuple(p.name for p in self.inputs.values() if not p.required and defaults[p.name].default is inspect.Parameter.empty)
+        """The optional ports without a default in the signature: given None where nothing is plugged in."""
+        arguments = self._signature.parameters
+        optional = (name for name, port in self.inputs.items() if not port.required)
+        return tuple(name for name in optional if arguments[name].default is inspect.Parameter.empty)
 
     @cached_property
     def output(self) -> PortType:
