@@ -21,10 +21,12 @@ from graphface.errors import DocumentError, Problem
 MAX_DEPTH = 64
 MAX_ALIASED_VALUES = 100_000
 MAX_CHARACTERS = 256 * 1024 * 1024
+MAX_DIGITS = 1000
 
 _COLUMN_BITS = 20
 _INT = re.compile(r"[-+]?[0-9]+")
 _HEX = re.compile(r"0x[0-9a-fA-F]+")
+_OCTAL = re.compile(r"0o[0-7]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _CONSTANTS: dict[str, Any] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
@@ -146,16 +148,15 @@ def parse(source: Source) -> tuple[Any, list[Problem]]:
 
 
 def scalar(text: str) -> Any:
-    """A plain scalar by YAML 1.2's core schema: null, bool, int, float or str."""
+    """A plain scalar by YAML 1.2's core schema: null, bool, int, float or str.
+
+    An integer of more than `MAX_DIGITS` digits is infinite: Python refuses to convert or even print such numbers.
+    """
     if text in _CONSTANTS:
         return _CONSTANTS[text]
-    try:
-        if _INT.fullmatch(text):
-            return int(text)
-        if _HEX.fullmatch(text):
-            return int(text, 16)
-    except ValueError:  # Python refuses to convert thousands of digits
-        return math.inf
+    for form, base in ((_INT, 10), (_HEX, 16), (_OCTAL, 8)):
+        if form.fullmatch(text):
+            return int(text, base) if len(text) <= MAX_DIGITS else math.inf
     return float(text) if _FLOAT.fullmatch(text) else text
 
 
@@ -171,8 +172,9 @@ class _Builder:
         self.problems: list[Problem] = []
         self._open: list[Map | Seq] = []
         self._keys: list[tuple[str, int] | None] = []
-        self._anchors: dict[str, tuple[Any, int]] = {}
+        self._anchors: dict[str, tuple[Any, int, int]] = {}
         self._pending: list[tuple[str | None, int]] = []
+        self._heights: list[int] = []
         self._values = 0
         self._aliased = 0
         self._documents = 0
@@ -186,7 +188,7 @@ class _Builder:
                 self._fail(f"tags ({event.tag}) have no meaning here; remove it", at)
             if event.style in (None, "") and not self._awaits_key():
                 value = scalar(value)
-            self._place(value, at, event.anchor, 1)
+            self._place(value, at, event.anchor, 1, 0)
         elif kind is yaml.MappingStartEvent or kind is yaml.SequenceStartEvent:
             at = _pack(event.start_mark)
             if event.tag is not None and event.tag != "!":
@@ -198,24 +200,27 @@ class _Builder:
             self._open.append(Map(self.source, at) if kind is yaml.MappingStartEvent else Seq(self.source, at))
             self._keys.append(None)
             self._pending.append((event.anchor, self._values))
+            self._heights.append(0)
         elif kind is yaml.MappingEndEvent or kind is yaml.SequenceEndEvent:
             done = self._open.pop()
             self._keys.pop()
             anchor, before = self._pending.pop()
             size = self._values - before
             self._values = before
-            self._place(done, done._at, anchor, size + 1)
+            self._place(done, done._at, anchor, size + 1, self._heights.pop() + 1)
         elif kind is yaml.AliasEvent:
             at = _pack(event.start_mark)
             if self._awaits_key():
                 self._fail("a key must be a plain word", at)
             if event.anchor not in self._anchors:
                 self._fail(f"unknown anchor {event.anchor!r} (an anchor cannot contain itself)", at)
-            value, size = self._anchors[event.anchor]
+            value, size, height = self._anchors[event.anchor]
             self._aliased += size
             if self._aliased > MAX_ALIASED_VALUES:
                 self._fail(f"aliases expand to more than {MAX_ALIASED_VALUES:,} values", at)
-            self._place(value, at, None, size)
+            if len(self._open) + height > MAX_DEPTH:
+                self._fail(f"aliases nest deeper than {MAX_DEPTH} levels", at)
+            self._place(value, at, None, size, height)
         elif kind is yaml.DocumentStartEvent:
             self._documents += 1
             if self._documents > 1:
@@ -224,13 +229,14 @@ class _Builder:
     def _awaits_key(self) -> bool:
         return bool(self._open) and isinstance(self._open[-1], Map) and self._keys[-1] is None
 
-    def _place(self, value: Any, at: int, anchor: str | None, size: int) -> None:
+    def _place(self, value: Any, at: int, anchor: str | None, size: int, height: int) -> None:
         self._values += size
         if anchor is not None:
-            self._anchors[anchor] = (value, size)
+            self._anchors[anchor] = (value, size, height)
         if not self._open:
             self.root = value
             return
+        self._heights[-1] = max(self._heights[-1], height)
         parent = self._open[-1]
         if isinstance(parent, Seq):
             parent.put(value, at)

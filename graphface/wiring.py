@@ -59,7 +59,7 @@ class Step:
     """One node, ready to run.
 
     `eager` and `lazy` are the slots behind its ports; `absent` are the ports that get None: nothing is plugged in.
-    `plain` pairs ports with slots where every port is eager and takes one whole value: the common case and the fast one.
+    `plain` pairs ports with slots where every port is eager and takes one whole value: the common, fast case.
     """
 
     slot: int
