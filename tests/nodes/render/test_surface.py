@@ -147,3 +147,23 @@ class TestHardCases:
         with pytest.warns(GraphfaceWarning, match="covers no pixel"):
             surface = rasterize(dome(center=(-500.0, 0.0)), blank(20, 20))
         assert (surface.triangle == -1).all()
+
+
+class TestHoles:
+    def test_edges_through_pixel_centres_leave_no_crack(self):
+        """Two triangles that share an edge running through pixel centres cover it."""
+        vertices = np.float32([[10, -5, 0], [40, -5, 0], [40, -35, 0], [10, -35, 0]])
+        triangles = np.int32([[0, 3, 1], [1, 3, 2]])
+        mesh = Mesh(vertices, triangles, np.tile(np.float32([0, 0, 1]), (4, 1)), Camera(), 10.0)
+        assert rasterize(mesh, blank(50, 50)).coverage[6:35, 11:40].all()
+
+    def test_a_fold_is_closed(self):
+        """A triangle that has turned away inside the surface is drawn nevertheless; at its rim none is."""
+        mesh = dome(steps=8)
+        inner = len(mesh.triangles) // 4
+        triangles = mesh.triangles.copy()
+        triangles[inner] = triangles[inner, ::-1]
+        folded = Mesh(mesh.vertices, triangles, mesh.normals, mesh.camera, mesh.interocular)
+        whole, closed = rasterize(mesh, blank(80, 100)), rasterize(folded, blank(80, 100))
+        np.testing.assert_array_equal(closed.coverage, whole.coverage)
+        np.testing.assert_allclose(closed.depth, whole.depth, atol=1e-3)
