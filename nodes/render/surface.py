@@ -119,7 +119,8 @@ def _enclosed(uncovered: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
     padded = np.pad(uncovered, 1, constant_values=True)
     _, region = cv2.connectedComponents(padded.astype(np.uint8), connectivity=4)
-    return (padded & (region != region[0, 0]))[1:-1, 1:-1]
+    enclosed: NDArray[np.bool_] = padded & (region != region[0, 0])
+    return enclosed[1:-1, 1:-1]
 
 
 def _visible_triangles(
