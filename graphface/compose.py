@@ -34,7 +34,7 @@ from graphface.document import (
     read_document,
 )
 from graphface.errors import DocumentError, Problem, UnreadableFile, nearest_names
-from graphface.located import Place, Source, parse, scalar
+from graphface.located import Place, Source, parse, plain, scalar
 from graphface.references import MAX_NESTING, References, Scope, Target
 
 MAX_NODES = 2_000_000
@@ -45,9 +45,12 @@ _WITH, _VARIANT, _PROFILE, _REPLACE, _SET = range(5)
 
 @dataclass(frozen=True)
 class FlatWire:
+    """What is plugged into a port; `broken` where a name in it means nothing, which was told already."""
+
     targets: tuple[Target, ...]
     is_list: bool
     place: Place | None
+    broken: bool = False
 
 
 @dataclass
@@ -65,7 +68,10 @@ class FlatNode:
 
 @dataclass
 class Composition:
-    """The flat graph, still in names: the operators behind them are looked up by `graphface.graph`."""
+    """The flat graph, still in names: the operators behind them are looked up by `graphface.wiring`.
+
+    `problems` is what is wrong so far; wiring adds what it finds, so that all of it is told at once.
+    """
 
     source: Source
     path: Path | None
@@ -78,6 +84,7 @@ class Composition:
     profiles: list[str]
     scope: Scope
     files: list[Path]
+    problems: list[Problem]
 
 
 @dataclass(frozen=True)
@@ -106,7 +113,7 @@ def compose(document: Document, choices: Choices, *, shipped: Sequence[Path] = (
         shipped: folders of graph files that installed packs offer.
 
     Raises:
-        DocumentError: with every problem found.
+        DocumentError: it is too large; any other problem is left in `problems` of the result.
     """
     return _Composer(document, choices, shipped).run()
 
@@ -118,11 +125,11 @@ def find_graph(name: str, shipped: Sequence[Path]) -> Path:
         UnreadableFile: neither exists; the message lists the shipped ones.
     """
     path = Path(name)
-    if path.is_file():
+    if _is_file(path):
         return path
     for folder in shipped:
         for candidate in (folder / name, *(folder / f"{name}{s}" for s in GRAPH_SUFFIXES)):
-            if candidate.is_file():
+            if _is_file(candidate):
                 return candidate
     known = shipped_graphs(shipped)
     hint = f" (shipped graphs: {', '.join(known)})" if known else ""
@@ -131,6 +138,14 @@ def find_graph(name: str, shipped: Sequence[Path]) -> Path:
 
 def shipped_graphs(shipped: Sequence[Path]) -> list[str]:
     return sorted(p.stem for folder in shipped for s in GRAPH_SUFFIXES for p in folder.glob(f"*{s}"))
+
+
+def _is_file(path: Path) -> bool:
+    """Whether there is such a file; a name that no file could have (too long, a NUL in it) is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 class _Composer:
@@ -157,9 +172,6 @@ class _Composer:
                     known = sorted(self._declared[kind])
                     has = f"the graph has {', '.join(known)}" if known else "the graph has none"
                     self._problem(f"unknown {kind} {name!r} ({has})", place, nearest_names(name, known))
-        outputs = self._resolve_all(scope) if not self._problems else {}
-        if self._problems:
-            raise DocumentError(self._problems)
         return Composition(
             source=document.source,
             path=document.path,
@@ -167,22 +179,24 @@ class _Composer:
             doc=document.doc,
             inputs=self._inputs,
             nodes=self._nodes,
-            outputs=outputs,
+            outputs=self._resolve_all(scope),
             variants=sorted(self._declared["variant"]),
             profiles=sorted(self._declared["profile"]),
             scope=scope,
             files=list(self._read),
+            problems=self._problems,
         )
 
     # --- files ------------------------------------------------------------------------------------
 
     def _load(self, text: str, near: Document, place: Place | None) -> Document | None:
-        """The document a file names, looked for beside it and then among the shipped graphs."""
-        folder = near.path.parent if near.path is not None else Path.cwd()
+        """The document that a file names, looked for beside that file and then among the shipped graphs."""
+        naming = (place.source.path if place is not None else None) or near.path
+        folder = naming.parent if naming is not None else Path.cwd()
         for base in (folder, *self._shipped):
-            path = (base / text).resolve()
-            if not path.is_file():
+            if not _is_file(base / text):
                 continue
+            path = (base / text).resolve()
             if not any(path.is_relative_to(root) for root in self._roots):
                 self._problem(f"{text!r} lies outside the folder of the graph", place)
                 return None
@@ -220,6 +234,7 @@ class _Composer:
         for name, entry in document.nodes.items():
             if name in merged.nodes:
                 _lay_over(merged.nodes[name], entry)
+                merged.nodes[name].place = entry.place if entry.use is not None else merged.nodes[name].place
             else:
                 merged.nodes[name] = entry
         merged.variants = base.variants | document.variants
@@ -254,7 +269,8 @@ class _Composer:
             self._declared[kind] |= declared.keys()
             for name in chosen:
                 for path, entry in declared.get(name, {}).items():
-                    overlays.append(_Overlay(rank, tuple(path.split("/")), entry))
+                    overlays.append(_Overlay(rank, tuple(path.split("/")), _plain(entry)))
+                    overlays += _nested(rank, tuple(path.split("/")), entry)
         return overlays
 
     # --- nesting ----------------------------------------------------------------------------------
@@ -280,7 +296,7 @@ class _Composer:
             elif rest:
                 below.setdefault(head, []).append(_Overlay(overlay.rank, tuple(rest), overlay.entry))
             else:
-                scope.carried.setdefault(head, set()).update(_lay_over(nodes[head], overlay.entry))
+                _lay_over(nodes[head], overlay.entry)
         self._declare_inputs(scope)
         for name, node in nodes.items():
             if node.removed:
@@ -294,7 +310,7 @@ class _Composer:
                     self._problem(f"node {prefix + name!r} is an operator and has no nodes inside", overlay.entry.place)
                 self._count += 1
                 self._nodes[prefix + name] = FlatNode(
-                    prefix + name, node.place, node.use, {}, node.settings, scope.carried.get(name, set())
+                    prefix + name, node.place, node.use, {}, node.settings, node.carried
                 )
             if self._count > MAX_NODES:
                 raise DocumentError([Problem(f"more than {MAX_NODES:,} nodes", node.place)])
@@ -316,15 +332,9 @@ class _Composer:
             return
         inner = self._with_bases(inner, (inner.path,))
         assert inner.path is not None
-        pending, constants = [], {}
-        for key, setting in node.settings.items():
-            path, dot, parameter = key.rpartition(".")
-            if dot:
-                place = setting.place or node.place
-                entry = NodeEntry(path, place, settings={parameter: setting})
-                pending.append(_Overlay(_WITH, tuple(path.split("/")), entry))
-            else:
-                constants[key] = setting
+        self._count += 1
+        pending = _nested(_WITH, (), node)
+        constants = _plain(node).settings
         self._check_input_names(scope, node, inner, constants)
         chain = (*chain, inner.path)
         if constants:
@@ -340,16 +350,22 @@ class _Composer:
             *((p, w.place) for p, w in node.wires.items()),
             *((k, s.place) for k, s in constants.items()),
         ]:
-            if port not in inner.inputs:
+            if port not in inner.inputs and port not in node.carried:
                 self._problem(
                     f"graph {node.name!r} ({inner.path and inner.path.name}) has no input {port!r} "
                     f"(it has {', '.join(inner.inputs) or 'none'})",
                     place,
                     nearest_names(port, inner.inputs),
                 )
+        plugged = {name for name, wire in node.wires.items() if wire.names is not None}
         for name, entry in inner.inputs.items():
-            if name not in node.wires and name not in constants and entry.default is None:
+            if name not in plugged and name not in constants and not entry.may_stay_open:
                 self._problem(f"input {name!r} of graph {scope.prefix + node.name!r} is not connected", node.place)
+            if name in plugged and name in constants:
+                message = (
+                    f"input {name!r} of graph {scope.prefix + node.name!r} is connected, so it cannot be set as well"
+                )
+                self._problem(message, constants[name].place)
 
     def _declare_inputs(self, scope: Scope) -> None:
         """Inputs of the whole graph: the top file's, and inner ones left at their default."""
@@ -359,9 +375,9 @@ class _Composer:
                 self._inputs[scope.prefix + name] = entry
 
     def _unknown_node(self, overlay: _Overlay, prefix: str, nodes: Mapping[str, NodeEntry]) -> None:
-        name = "/".join(overlay.path)
-        known = [*nodes, *self._nodes]
-        self._problem(f"no node {prefix + name!r} in this graph", overlay.entry.place, nearest_names(name, known))
+        name = prefix + "/".join(overlay.path)
+        known = [*(prefix + n for n in nodes), *self._nodes]
+        self._problem(f"no node {name!r} in this graph", overlay.entry.place, nearest_names(name, known))
 
     # --- references -------------------------------------------------------------------------------
 
@@ -377,8 +393,10 @@ class _Composer:
                     continue
                 for port, wire in node.wires.items():
                     if wire.names is not None:
-                        targets, is_list = references.wire(scope, wire)
-                        flat.wires[port] = FlatWire(targets, is_list, wire.place)
+                        found = references.wire(scope, wire)
+                        flat.wires[port] = (
+                            FlatWire(*found, wire.place) if found else FlatWire((), False, wire.place, True)
+                        )
         outputs = {}
         for name, setting in top.document.outputs.items():
             found = references.resolve(top, setting.value, setting.place)
@@ -395,21 +413,41 @@ class _Composer:
 def _copy(entry: NodeEntry) -> NodeEntry:
     copied = copy.copy(entry)
     copied.wires, copied.settings = dict(entry.wires), dict(entry.settings)
+    copied.carried = set(entry.carried)
     return copied
 
 
-def _lay_over(node: NodeEntry, overlay: NodeEntry) -> set[str]:
-    """Lay a partial node over a node; the names of ports and parameters that now belong to a replaced operator."""
-    carried: set[str] = set()
+def _plain(entry: NodeEntry) -> NodeEntry:
+    """An entry without its settings of nodes further inside ("inner/node.parameter")."""
+    plain = copy.copy(entry)
+    plain.settings = {key: setting for key, setting in entry.settings.items() if "." not in key}
+    return plain
+
+
+def _nested(rank: int, path: tuple[str, ...], entry: NodeEntry) -> list[_Overlay]:
+    """The settings that `_plain` leaves out, as overlays of the nodes that they are for."""
+    overlays = []
+    for key, setting in entry.settings.items():
+        inner, dot, parameter = key.rpartition(".")
+        if dot:
+            body = NodeEntry(inner, setting.place or entry.place, settings={parameter: setting})
+            overlays.append(_Overlay(rank, (*path, *inner.split("/")), body))
+    return overlays
+
+
+def _lay_over(node: NodeEntry, overlay: NodeEntry) -> None:
+    """Lay a partial node over a node; one removed before comes back only where the overlay says what it is."""
     if overlay.removed:
         node.removed = True
-        return carried
-    if overlay.use is not None and (node.use is None or overlay.use.value != node.use.value):
-        carried = {*node.wires, *node.settings} - {*overlay.wires, *overlay.settings}
+        return
+    if overlay.use is not None:
+        node.removed = False
+        if node.use is not None and overlay.use.value != node.use.value:
+            node.carried |= {*node.wires, *node.settings}
         node.use = overlay.use
     node.wires |= overlay.wires
     node.settings |= overlay.settings
-    return carried
+    node.carried -= {*overlay.wires, *overlay.settings}
 
 
 def _with_defaults(inputs: Mapping[str, InputEntry], constants: Mapping[str, Setting]) -> dict[str, InputEntry]:
@@ -421,7 +459,7 @@ def _with_defaults(inputs: Mapping[str, InputEntry], constants: Mapping[str, Set
 
 
 def read_flag(text: str, flag: str) -> tuple[str, Any]:
-    """ "node.parameter=value" of a `--set` or `--replace` flag; the value is a YAML scalar or flow value.
+    """ "node.parameter=value" of `--set` or `--replace`; the value is a YAML scalar, plain or quoted, or a flow value.
 
     Raises:
         DocumentError: there is no "=", or the value is not YAML.
@@ -430,9 +468,9 @@ def read_flag(text: str, flag: str) -> tuple[str, Any]:
     place = Place(Source(flag, text), 1, 1)
     if not equals or not all(NAME.fullmatch(part) for part in key.replace("/", ".").split(".")):
         raise DocumentError([Problem(f"expected name=value, got {text!r}", place)])
-    if value[:1] in ("[", "{"):
+    if value[:1] in ("[", "{", "'", '"'):
         tree, problems = parse(Source(flag, f"value: {value}"))
         if problems:
             raise DocumentError(problems)
-        return key, tree["value"]
+        return key, plain(tree["value"])
     return key, scalar(value)

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from graphface.errors import Problem, UnreadableFile, nearest_names
-from graphface.located import Map, Place, Seq, Source, parse
+from graphface.located import Map, Place, Seq, Source, parse, plain
 
 FORMAT = 1
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
@@ -44,7 +44,10 @@ class Wire:
 
 @dataclass
 class NodeEntry:
-    """One node as a file states it; in an overlay any part may be absent."""
+    """One node as a file states it; in an overlay any part may be absent.
+
+    `carried` names ports and parameters written for an operator that an overlay has since replaced.
+    """
 
     name: str
     place: Place
@@ -53,6 +56,7 @@ class NodeEntry:
     settings: dict[str, Setting] = field(default_factory=dict)
     doc: str = ""
     removed: bool = False
+    carried: set[str] = field(default_factory=set)
 
 
 @dataclass
@@ -64,6 +68,10 @@ class InputEntry:
     type: Setting
     default: Setting | None = None
     doc: str = ""
+
+    @property
+    def may_stay_open(self) -> bool:
+        return self.default is not None or "None" in re.split(r"[|\s]+", str(self.type.value))
 
 
 @dataclass
@@ -97,7 +105,7 @@ def read_document(path: Path) -> tuple[Document, list[Problem]]:
         ) from None
     except (OSError, ValueError) as error:
         raise UnreadableFile(path, getattr(error, "strerror", None) or str(error)) from None
-    return parse_document(Source(str(path), text), path)
+    return parse_document(Source(str(path), text, path), path)
 
 
 def parse_document(source: Source, path: Path | None = None) -> tuple[Document, list[Problem]]:
@@ -125,7 +133,7 @@ def read_overlay(entries: Any, place: Place, *, settings_only: bool) -> tuple[di
         elif not isinstance(body, Map):
             problems.append(Problem(f"expected a mapping for node {name!r}", entries.value_place(name)))
         elif settings_only:
-            node.settings = {key: Setting(value, body.key_place(key)) for key, value in body.items()}
+            node.settings = {key: Setting(plain(value), body.key_place(key)) for key, value in body.items()}
         else:
             problems += _read_node(body, node)
         found[name] = node
@@ -165,7 +173,7 @@ def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
     for section in ("inputs", "nodes", "outputs", "variants", "profiles"):
         if tree.get(section) is not None and not isinstance(tree[section], Map):
             yield Problem(f"{section!r} is a mapping", tree.value_place(section))
-    for name in document.inputs.keys() & document.nodes.keys():
+    for name in (name for name in document.nodes if name in document.inputs):
         first = document.inputs[name].place
         yield Problem(f"{name!r} is an input (line {first.line}) and a node; rename one", document.nodes[name].place)
 
@@ -179,7 +187,7 @@ def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
             yield from _unknown_keys(body, ("type", "default", "doc"), f"input {name!r}")
             entry = InputEntry(name, key_place, Setting(body["type"], body.value_place("type")))
             if "default" in body:
-                entry.default = Setting(body["default"], body.value_place("default"))
+                entry.default = Setting(plain(body["default"]), body.value_place("default"))
             entry.doc = str(body.get("doc") or "")
             document.inputs[name] = entry
         else:
@@ -229,7 +237,7 @@ def _read_node(body: Map, node: NodeEntry) -> Iterator[Problem]:
         yield Problem("'in' maps ports to the names plugged into them", body.value_place("in"))
     settings = body.get("with")
     if isinstance(settings, Map):
-        node.settings = {key: Setting(value, settings.key_place(key)) for key, value in settings.items()}
+        node.settings = {key: Setting(plain(value), settings.key_place(key)) for key, value in settings.items()}
     elif settings is not None:
         yield Problem("'with' maps parameters to their values", body.value_place("with"))
 

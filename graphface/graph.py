@@ -9,6 +9,7 @@ Loading checks everything; what is left to fail in a run are the operators thems
 from __future__ import annotations
 
 import importlib.util
+import json
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -18,7 +19,7 @@ from graphface.cache.keys import KeyTable
 from graphface.cache.memory import MemoryTier
 from graphface.compose import GRAPH_SUFFIXES, Choices, Composition, compose, find_graph
 from graphface.document import Document, parse_document, read_document
-from graphface.errors import DocumentError, InputError, nearest_names
+from graphface.errors import DocumentError, InputError, UsageError, nearest_names
 from graphface.evaluate import Evaluator, Result
 from graphface.inputs import Bound, bind, missing_inputs
 from graphface.located import Source
@@ -251,12 +252,18 @@ def _read(
     source: str | Path | Mapping[str, Any], shipped: Sequence[Path], registry: Registry
 ) -> tuple[Document, list[Any]]:
     if isinstance(source, Mapping):
-        import yaml
-
-        return parse_document(Source("<mapping>", yaml.safe_dump(dict(source), sort_keys=False)))
+        return parse_document(Source("<mapping>", _as_text(source)))
     if isinstance(source, str) and "\n" in source:
         return parse_document(Source("<text>", source))
     path = find_graph(str(source), shipped)
     if path.suffix.lower() in GRAPH_SUFFIXES:
         return read_document(path)
     return parse_document(Source(f"{path} (its provenance)", read_provenance(path, registry)))
+
+
+def _as_text(graph: Mapping[str, Any]) -> str:
+    """A mapping as JSON, which is YAML too, and in which a text never looks like a number."""
+    try:
+        return json.dumps(dict(graph), indent=1, ensure_ascii=False)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise UsageError(f"a graph given as a mapping holds plain values only: {error}") from None

@@ -176,10 +176,15 @@ def _given_file(value: str | Path, roots: Sequence[Path]) -> Path:
 
 
 def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:
-    for root in roots:
-        path = (root / name).resolve()
-        if path.is_file() and any(path.is_relative_to(r.resolve()) for r in roots):
-            return path
+    place = entry.default.place if entry.default is not None else None
+    naming = [place.source.path.parent] if place is not None and place.source.path is not None else []
+    for folder in (*naming, *roots):
+        try:
+            path = (folder / name).resolve()
+            if path.is_file() and any(path.is_relative_to(root.resolve()) for root in roots):
+                return path
+        except (OSError, ValueError):  # a name that no file could have
+            continue
     raise UnreadableFile(name, f"no such file beside the graph (default of input {entry.name!r}, {entry.place})")
 
 

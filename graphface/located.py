@@ -12,6 +12,7 @@ import math
 import re
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import yaml
@@ -44,6 +45,7 @@ class Source:
 
     name: str
     text: str = field(repr=False)
+    path: Path | None = None
 
     @cached_property
     def lines(self) -> list[str]:
@@ -158,6 +160,13 @@ def scalar(text: str) -> Any:
         if form.fullmatch(text):
             return int(text, base) if len(text) <= MAX_DIGITS else math.inf
     return float(text) if _FLOAT.fullmatch(text) else text
+
+
+def plain(value: Any) -> Any:
+    """A value of the tree as ordinary dicts and lists: what operators get, and what has the same key as a caller's own."""
+    if isinstance(value, Map):
+        return {key: plain(item) for key, item in value.items()}
+    return [plain(item) for item in value] if isinstance(value, Seq) else value
 
 
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

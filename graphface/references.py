@@ -11,10 +11,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from graphface.document import Document, Wire
-from graphface.errors import nearest_names
+from graphface.errors import DocumentError, Problem, nearest_names
 from graphface.located import Place
 
 MAX_NESTING = 32
+MAX_WIRES = 100_000
 
 Complain = Callable[[str, Place | None, Sequence[str]], None]
 Found = tuple[tuple["Target", ...], bool]
@@ -41,7 +42,6 @@ class Scope:
     parent: Scope | None
     wires: dict[str, Wire]
     graphs: dict[str, Scope] = field(default_factory=dict)
-    carried: dict[str, set[str]] = field(default_factory=dict)
 
 
 class References:
@@ -50,16 +50,20 @@ class References:
     def __init__(self, complain: Complain) -> None:
         self._complain = complain
 
-    def wire(self, scope: Scope, wire: Wire) -> Found:
-        """Everything plugged into one port."""
+    def wire(self, scope: Scope, wire: Wire, fields: Sequence[str] = (), depth: int = 0) -> Found | None:
+        """Everything plugged into one port, and fields of it; None, with a complaint, where a name means nothing."""
         targets: list[Target] = []
-        is_list = wire.is_list
+        is_list, broken = wire.is_list, False
         for name in wire.names or ():
-            found = self.resolve(scope, name, wire.place)
-            if found is not None:
-                targets += found[0]
-                is_list = is_list or found[1]
-        return tuple(targets), is_list
+            found = self.resolve(scope, name, wire.place, depth)
+            if found is None:
+                broken = True
+                continue
+            targets += [Target(t.name, (*t.fields, *fields)) for t in found[0]]
+            is_list = is_list or found[1]
+            if len(targets) > MAX_WIRES:  # lists of lists through nested graphs double at every step
+                raise DocumentError([Problem(f"more than {MAX_WIRES:,} wires into one port", wire.place)])
+        return None if broken else (tuple(targets), is_list)
 
     def resolve(self, scope: Scope, text: str, place: Place | None, depth: int = 0) -> Found | None:
         """What a reference means in a scope; None, with a complaint, where it means nothing."""
@@ -72,7 +76,8 @@ class References:
             first, rest = head.split("/", 1)
             if first in scope.graphs:
                 return self.resolve(scope.graphs[first], ".".join((rest, *fields)), place, depth + 1)
-            return self._unknown(scope, head, place)
+            self._unknown(scope, head, place)
+            return None
         if head in scope.graphs:
             return self._output(scope.graphs[head], head, fields, place, depth)
         entry = document.nodes.get(head)
@@ -80,21 +85,14 @@ class References:
             return (Target(scope.prefix + head, tuple(fields)),), False
         if head in document.inputs:
             return self._input(scope, head, fields, depth)
-        return self._unknown(scope, head, place)
+        self._unknown(scope, head, place)
+        return None
 
     def _input(self, scope: Scope, name: str, fields: list[str], depth: int) -> Found | None:
         wire = scope.wires.get(name)
         if wire is None or wire.names is None or scope.parent is None:
             return (Target(scope.prefix + name, tuple(fields)),), False
-        targets: list[Target] = []
-        is_list = wire.is_list
-        for outer_name in wire.names:
-            outer = self.resolve(scope.parent, outer_name, wire.place, depth + 1)
-            if outer is None:
-                return None
-            targets += [Target(t.name, (*t.fields, *fields)) for t in outer[0]]
-            is_list = is_list or outer[1]
-        return tuple(targets), is_list
+        return self.wire(scope.parent, wire, fields, depth + 1)
 
     def _output(self, graph: Scope, name: str, fields: list[str], place: Place | None, depth: int) -> Found | None:
         offered = graph.document.outputs

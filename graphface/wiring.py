@@ -119,7 +119,7 @@ class _Wirer:
     def __init__(self, composition: Composition, registry: Registry) -> None:
         self._graph = composition
         self._registry = registry
-        self._problems: list[Problem] = []
+        self._problems: list[Problem] = list(composition.problems)
         self._operators: dict[str, Operator | None] = {}
         self._bare: dict[str, dict[str, Any]] = {}
 
@@ -218,6 +218,8 @@ class _Wirer:
                 if port_name not in node.carried:
                     self._unknown_port(node, operator, port_name, flat)
                 continue
+            if flat.broken:
+                continue
             as_list = self._check_wire(node, port, flat, types)
             if as_list is not None and all(t.name in slots for t in flat.targets):
                 refs = tuple(Ref(slots[t.name], t.fields) for t in flat.targets)
@@ -290,7 +292,7 @@ class _Wirer:
     def _parameters(self, node: FlatNode, operator: Operator) -> tuple[dict[str, Setting], dict[str, Any]]:
         """The settings that apply, and all parameters validated."""
         if not node.settings:
-            if operator.name not in self._bare:
+            if not self._bare.get(operator.name):  # what is wrong without settings is wrong at every such node
                 self._bare[operator.name] = self._validate(node, operator, {})
             return {}, self._bare[operator.name]
         model = operator.parameters
