@@ -24,8 +24,8 @@ _FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yell
 class ProgressBar(Observer):
     """A bar that grows with time, naming the node that runs; silent where standard error is not a terminal.
 
-    A node's share of the bar is what its operator took in earlier runs (`graphface.timings`), so that the time left means
-    something when one node takes as long as all others.
+    A node's share of the bar is what its operator took in earlier runs (`graphface.timings`), so that the time left
+    means something when one node takes as long as all others.
     """
 
     def __init__(self, title: str = "") -> None:

@@ -37,7 +37,7 @@ def _mask_from_file(path: Path) -> FloatArray:
     return np.ascontiguousarray(read_image(path).pixels.mean(axis=2, dtype=np.float32))
 
 
-def _as_bytes(unit: FloatArray) -> NDArray[np.uint8]:
+def _as_bytes(unit: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
     pixels = np.rint(np.clip(unit, 0, 1) * 255).astype(np.uint8)
     return pixels if pixels.ndim == 3 else np.repeat(pixels[..., None], 3, axis=2)
 
@@ -89,11 +89,15 @@ Mask = Annotated[
 ]
 Normals = Annotated[
     FloatArray,
-    _map("Normals", "H W 3", "Unit normals in the camera frame; (0, 0, 0): no surface.", _picture_normals, low=-1, high=1),
+    _map(
+        "Normals", "H W 3", "Unit normals in the camera frame; (0, 0, 0): no surface.", _picture_normals, low=-1, high=1
+    ),
 ]
 Depth = Annotated[
     FloatArray,
-    _map("Depth", "H W", "z in the camera frame, pixels, larger is nearer; 0 where there is no surface.", _picture_depth),
+    _map(
+        "Depth", "H W", "z in the camera frame, pixels, larger is nearer; 0 where there is no surface.", _picture_depth
+    ),
 ]
 Albedo = Annotated[FloatArray, _map("Albedo", "H W 3", "Reflectance: colour over shading.", _picture_albedo, low=0)]
 Shading = Annotated[FloatArray, _map("Shading", "...", "Irradiance, H x W or H x W x 3.", _picture_unit, low=0)]
@@ -251,6 +255,33 @@ class Surface:
 
 
 @dataclass(frozen=True)
+class HeadMasks:
+    """What the projected geometry alone says (paper, section 2, "Face segmentation"); each is 0 or 1, H x W.
+
+    `conservative` is surely face, `normal` about face and head with ears, `aggressive` all that may be face.
+    """
+
+    conservative: Mask
+    normal: Mask
+    aggressive: Mask
+
+
+@dataclass(frozen=True)
+class Segmentation:
+    """How much of each pixel is face (with ears and neck), hair, and background: H x W each, summing to 1."""
+
+    face: Mask
+    hair: Mask
+    background: Mask
+
+    @staticmethod
+    def picture(segmentation: Segmentation) -> NDArray[np.uint8]:
+        """Red is hair, green is face."""
+        parts = [segmentation.hair, segmentation.face, np.zeros_like(segmentation.face)]
+        return _as_bytes(np.stack(parts, axis=2))
+
+
+@dataclass(frozen=True)
 class Intrinsic:
     """A picture split into `albedo` (H x W x 3) and `shading` (H x W): their product is the picture."""
 
@@ -262,8 +293,8 @@ class Intrinsic:
 class DetailMap:
     """What the photo has and rendering lacks: photo = gain * rendering + offset.
 
-    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is all
-    `gain`, a method that splits by frequency has both. Whoever recombines needs not know which method it was.
+    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is
+    all `gain`, a method that splits by frequency has both. Whoever recombines need not know which method it was.
     """
 
     offset: Detail

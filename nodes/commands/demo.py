@@ -77,4 +77,4 @@ def _astronaut() -> Any:
     """The photograph that scikit-image carries: uint8, 512 x 512 x 3."""
     from skimage.data import astronaut
 
-    return astronaut()
+    return astronaut()  # type: ignore[no-untyped-call]

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.types import Image, Landmarks, Mesh
+from graphface.values import array_of
 
 Picture = NDArray[np.uint8]
 
@@ -61,10 +62,9 @@ def mesh_overlay(photo: Image, mesh: Mesh, landmarks: Landmarks) -> Picture:
 
 
 def picture_of(value: Any, name: str) -> Picture:
-    """A map as a picture, by the type called `name` in `graphface.nodes.types`."""
+    """A value as a picture, by the type called `name` in `graphface.nodes.types`."""
     from graphface.nodes import types
-    from graphface.values import array_of
 
     declared = getattr(types, name)
-    drawn: Picture = (array_of(declared) or declared).picture(value)
+    drawn: Picture = getattr(array_of(declared) or declared, "picture")(value)  # noqa: B009
     return drawn

@@ -2,9 +2,9 @@
 
     pip install '.[bench]' && python tests/bench/engine_overhead.py
 
-The graph has 10 layers of 100 nodes, each adding three nodes of the layer above; 100 leaves are given and all sinks asked
-for. `cold` computes everything, `warm` asks again for the same, `dirty` again with one leaf changed that reaches about
-12 % of the nodes. Times are CPU time of this process (other load on the machine matters less), best of several.
+The graph has 10 layers of 100 nodes, each adding three nodes of the layer above; 100 leaves are given and all sinks
+asked for. `cold` computes everything, `warm` asks again for the same, `dirty` again with one leaf changed that reaches
+about 12 % of the nodes. Times are CPU time of this process (other load on the machine matters less), best of several.
 """
 
 from __future__ import annotations
