@@ -8,15 +8,26 @@ this text as their provenance, so that a picture can be run again (`graphface ru
 from __future__ import annotations
 
 import json
+import math
 import os
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator, Mapping
+from enum import Enum
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphface.located import Place
+from graphface.inputs import reader_of
+from graphface.located import Place, scalar
 
 if TYPE_CHECKING:
     from graphface.graph import Graph
     from graphface.wiring import Argument, GraphInput, Ref, Step
+
+_NOT_IN_YAML = re.compile(r"[^\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+"""Characters that a YAML text may not hold unescaped, or would take for the end of a line."""
+
+Noted = Callable[[str, Place | None], str]
+"""Puts a line's origin behind it."""
 
 
 def effective(graph: Graph, *, origins: bool = True) -> str:
@@ -37,7 +48,9 @@ def _lines(graph: Graph, origins: bool) -> Iterator[str]:
     if graph.inputs:
         yield "inputs:"
         for entry in graph.inputs.values():
-            yield noted(f"  {entry.name}: {_input(entry)}", entry.default.place if entry.default else entry.place)
+            yield noted(
+                f"  {entry.name}: {_input(graph, entry)}", entry.default.place if entry.default else entry.place
+            )
     yield "nodes:" if graph.steps else "nodes: {}"
     names = [*graph.inputs, *(step.name for step in graph.steps)]
     for step in graph.steps:
@@ -48,9 +61,9 @@ def _lines(graph: Graph, origins: bool) -> Iterator[str]:
             yield f"  {name}: {_reference(ref, names)}"
 
 
-def _step_lines(step: Step, names: list[str], use: Place | None, noted: Any) -> Iterator[str]:
+def _step_lines(step: Step, names: list[str], use: Place | None, noted: Noted) -> Iterator[str]:
     yield f"  {step.name}:"
-    yield noted(f"    use: {step.operator.name}", use)
+    yield noted(f"    use: {_word(step.operator.name)}", use)
     if step.arguments:
         wires = ", ".join(f"{a.port}: {_wire(a, names)}" for a in step.arguments)
         yield f"    in: {{{wires}}}"
@@ -60,10 +73,33 @@ def _step_lines(step: Step, names: list[str], use: Place | None, noted: Any) -> 
             yield noted(f"      {name}: {_value(setting.value)}", setting.place)
 
 
-def _input(entry: GraphInput) -> str:
-    if entry.default is None:
-        return _value(str(entry.type))
-    return f"{{type: {_value(str(entry.type))}, default: {_value(entry.default.value)}}}"
+def _input(graph: Graph, entry: GraphInput) -> str:
+    """An input's type as its file writes it (a class may go by another name there), with default and doc."""
+    declared = _value(graph.composition.inputs[entry.name].type.value)
+    if entry.default is None and not entry.doc:
+        return declared
+    parts = [f"type: {declared}"]
+    if entry.default is not None:
+        parts.append(f"default: {_value(_default(graph, entry))}")
+    if entry.doc:
+        parts.append(f"doc: {_value(entry.doc)}")
+    return f"{{{', '.join(parts)}}}"
+
+
+def _default(graph: Graph, entry: GraphInput) -> Any:
+    """The default; a file named by a graph in another folder, as seen from the folder of the whole graph."""
+    from graphface.graph import shipped_folders
+
+    assert entry.default is not None
+    value, place, top = entry.default.value, entry.default.place, graph.composition.path
+    named_in = place.source.path if place is not None else None
+    if not isinstance(value, str) or reader_of(entry.type) is None or named_in is None or top is None:
+        return value
+    file = (named_in.parent / value).resolve()
+    if named_in.parent.resolve() == top.parent.resolve() or not file.is_file():
+        return value
+    roots = [folder.resolve() for folder in (top.parent, *shipped_folders(graph.registry))]
+    return next((file.relative_to(root).as_posix() for root in roots if file.is_relative_to(root)), value)
 
 
 def _wire(argument: Argument, names: list[str]) -> str:
@@ -72,16 +108,33 @@ def _wire(argument: Argument, names: list[str]) -> str:
 
 
 def _reference(ref: Ref, names: list[str]) -> str:
-    return ".".join((names[ref.slot], *ref.fields))
+    return _word(".".join((names[ref.slot], *ref.fields)))
+
+
+def _word(text: str) -> str:
+    """A name, quoted where YAML would read something else in it (a node called "null")."""
+    return text if isinstance(scalar(text), str) else _quoted(text)
 
 
 def _value(value: Any) -> str:
-    """JSON, which is YAML; non-finite numbers as YAML writes them."""
-    if isinstance(value, float) and value != value:
-        return ".nan"
-    if value in (float("inf"), float("-inf")):
-        return ".inf" if value > 0 else "-.inf"
-    return json.dumps(value, ensure_ascii=False)
+    """A value as flow YAML; what YAML cannot say becomes the nearest that it can: a tuple a list, a path a text."""
+    if isinstance(value, Enum):
+        return _value(value.value)
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{_quoted(str(key))}: {_value(item)}' for key, item in value.items())}}}"
+    if isinstance(value, list | tuple | set | frozenset):
+        return f"[{', '.join(_value(item) for item in value)}]"
+    if isinstance(value, float) and not math.isfinite(value):
+        return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
+    if value is None or isinstance(value, bool | int | float):
+        return json.dumps(value)
+    return _value(value.tolist()) if hasattr(value, "tolist") else _quoted(str(value))
+
+
+def _quoted(text: str) -> str:
+    """A JSON string, which is YAML once the characters are escaped that YAML does not take as they are."""
+    readable = text.encode("utf-8", "replace").decode()
+    return _NOT_IN_YAML.sub(lambda found: f"\\u{ord(found[0]):04x}", json.dumps(readable, ensure_ascii=False))
 
 
 def _origin(place: Place) -> str:
@@ -90,4 +143,5 @@ def _origin(place: Place) -> str:
     if name.startswith("--"):
         return name
     relative = os.path.relpath(name) if os.path.isabs(name) else name
-    return f"{os.path.basename(name) if relative.startswith('..') else relative}:{place.line}:{place.column}"
+    shown = Path(name).name if relative.startswith("..") else relative
+    return "".join(c if c.isprintable() else "?" for c in f"{shown}:{place.line}:{place.column}")

@@ -110,7 +110,7 @@ class Registry:
         Raises:
             UnknownType: with the nearest names.
         """
-        parts = [p.strip() for p in text.split("|")]
+        parts = _alternatives(text)
         optional = "None" in parts
         atoms: list[Atom] = []
         for part in parts:
@@ -171,6 +171,18 @@ class Registry:
             declared = (operator_of(f) for m in modules for f in vars(importlib.import_module(m)).values())
             self._loaded[family] = {op.name: op for op in declared if op is not None and op.family == family}
         return self._loaded[family]
+
+
+def _alternatives(text: str) -> list[str]:
+    """ "list[A | None] | B" in parts: what stands between the bars outside brackets."""
+    parts, depth = [""], 0
+    for character in text:
+        depth += (character == "[") - (character == "]")
+        if character == "|" and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part.strip() for part in parts]
 
 
 def interchangeable(one: Operator, other: Operator) -> bool:
