@@ -15,7 +15,8 @@ from graphface.errors import DocumentError, Problem, nearest_names
 from graphface.located import Place
 
 MAX_NESTING = 32
-MAX_WIRES = 100_000
+MAX_WIRES = 10_000
+"""Into one port, where nested graphs multiply what a file says."""
 
 Complain = Callable[[str, Place | None, Sequence[str]], None]
 Found = tuple[tuple["Target", ...], bool]
@@ -61,7 +62,9 @@ class References:
                 continue
             targets += [Target(t.name, (*t.fields, *fields)) for t in found[0]]
             is_list = is_list or found[1]
-            if len(targets) > MAX_WIRES:  # lists of lists through nested graphs double at every step
+            if len(targets) > max(
+                MAX_WIRES, len(wire.names or ())
+            ):  # lists of lists through nested graphs double at every step
                 raise DocumentError([Problem(f"more than {MAX_WIRES:,} wires into one port", wire.place)])
         return None if broken else (tuple(targets), is_list)
 

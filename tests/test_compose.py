@@ -71,7 +71,7 @@ class TestExtends:
         assert opened(write("c.yaml", text)).run()["y"] == 8
 
     def test_other_operator(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """Where a file exchanges the operator, parameters written for the old one are dropped if the new has none such."""
+        """Parameters written for an operator that a file exchanges are dropped if the new one has none such."""
         write("base.yaml", ADD)
         graph = opened(write("g.yaml", "extends: base.yaml\nnodes: {x: {use: toy.subtract}}\n"))
         assert graph.run()["y"] == 1
@@ -272,7 +272,8 @@ class TestFiles:
         """A problem inside a used file is told with its place in that file."""
         write("bad.yaml", "nodes: {x: 3}\n")
         found = refused(opened, write("g.yaml", "nodes: {x: {use: bad.yaml}}\n"))
-        assert [p.place.source.name.endswith("bad.yaml") for p in found if p.place is not None][0]
+        assert found[0].place is not None
+        assert found[0].place.source.name.endswith("bad.yaml")
 
 
 class TestOverlays:
