@@ -35,6 +35,11 @@ def effective(graph: Graph, *, origins: bool = True) -> str:
     return "\n".join(_lines(graph, origins)) + "\n"
 
 
+def escaped(line: str) -> str:
+    """A line of JSON as a line of YAML: some characters may stand in a JSON string and not in a YAML one."""
+    return _NOT_IN_YAML.sub(lambda found: f"\\u{ord(found[0]):04x}", line)
+
+
 def _lines(graph: Graph, origins: bool) -> Iterator[str]:
     composition = graph.composition
 
@@ -132,9 +137,8 @@ def _value(value: Any) -> str:
 
 
 def _quoted(text: str) -> str:
-    """A JSON string, which is YAML once the characters are escaped that YAML does not take as they are."""
-    readable = text.encode("utf-8", "replace").decode()
-    return _NOT_IN_YAML.sub(lambda found: f"\\u{ord(found[0]):04x}", json.dumps(readable, ensure_ascii=False))
+    """A text in double quotes."""
+    return escaped(json.dumps(text.encode("utf-8", "replace").decode(), ensure_ascii=False))
 
 
 def _origin(place: Place) -> str:

@@ -19,6 +19,7 @@ from graphface.cache.keys import KeyTable
 from graphface.cache.memory import MemoryTier
 from graphface.compose import GRAPH_SUFFIXES, Choices, Composition, compose, find_graph
 from graphface.document import Document, parse_document, read_document
+from graphface.effective import escaped
 from graphface.errors import DocumentError, InputError, UsageError, nearest_names
 from graphface.evaluate import Evaluator, Result
 from graphface.inputs import Bound, bind, missing_inputs
@@ -264,6 +265,7 @@ def _read(
 def _as_text(graph: Mapping[str, Any]) -> str:
     """A mapping as JSON, which is YAML too, and in which a text never looks like a number."""
     try:
-        return json.dumps(dict(graph), indent=1, ensure_ascii=False)
+        lines = json.dumps(dict(graph), indent=1, ensure_ascii=False).split("\n")
+        return "\n".join(escaped(line) for line in lines)
     except (TypeError, ValueError, RecursionError) as error:
         raise UsageError(f"a graph given as a mapping holds plain values only: {error}") from None
