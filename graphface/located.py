@@ -163,7 +163,7 @@ def scalar(text: str) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """A value of the tree as ordinary dicts and lists: what operators get, and what has the same key as a caller's own."""
+    """A value of the tree as ordinary dicts and lists: what operators get, with the keys of a caller's own."""
     if isinstance(value, Map):
         return {key: plain(item) for key, item in value.items()}
     return [plain(item) for item in value] if isinstance(value, Seq) else value

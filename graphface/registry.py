@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from graphface.assets import Asset
 
 ENTRY_POINTS = "graphface.nodes"
+_MAX_LISTS = 8
 _BUILTIN_TYPES: dict[str, Any] = {"Any": object, "int": int, "float": float, "str": str, "bool": bool, "Path": Path}
 
 
@@ -71,14 +72,12 @@ class Registry:
         Raises:
             PluginError: the file is missing, fails to import, or declares no operator.
         """
-        before = set(self._added)
-        for function in vars(_import_file(path)).values():
-            if operator_of(function) is not None:
-                self.add(function)
-        declared = sorted(set(self._added) - before)
-        if not declared:
+        functions = [f for f in vars(_import_file(path)).values() if operator_of(f) is not None]
+        if not functions:
             raise PluginError(f"{path}: declares no operator; put @node on a function", path=path)
-        return declared
+        for function in functions:
+            self.add(function)
+        return sorted({operator.name for f in functions if (operator := operator_of(f)) is not None})
 
     def operator(self, name: str) -> Operator:
         """The operator called `name`.
@@ -110,6 +109,8 @@ class Registry:
         Raises:
             UnknownType: with the nearest names.
         """
+        if text.count("[") > _MAX_LISTS:
+            raise UnknownType(text, self.type_names())
         parts = _alternatives(text)
         optional = "None" in parts
         atoms: list[Atom] = []

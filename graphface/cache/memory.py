@@ -86,10 +86,12 @@ class MemoryTier:
             self._drop(key)
 
     def _worth(self, key: bytes) -> float:
-        """Seconds saved per byte freed; a byte that others hold too is not freed."""
+        """Seconds saved per byte held; those who hold an array together share its bytes.
+
+        Counting a shared byte as not freed at all would keep for ever what two cheap nodes hold.
+        """
         seconds, arrays = self._costs[key]
-        freed = _ENTRY_BYTES + sum(a.nbytes for a in arrays if self._holders[id(a)] == 1)
-        return seconds / freed
+        return seconds / (_ENTRY_BYTES + sum(a.nbytes / self._holders[id(a)] for a in arrays))
 
     def _drop(self, key: bytes) -> None:
         _, arrays = self._costs.pop(key)

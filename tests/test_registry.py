@@ -1,0 +1,113 @@
+"""Operators are found by name, in packs, in plug-in files, and beside each other in families."""
+
+from pathlib import Path
+
+import pytest
+
+from graphface import Registry, node
+from graphface.errors import PluginError, UnknownOperator, UnknownType
+
+PLUGIN = '''
+from graphface import node
+
+@node("mine.double")
+def double(x: float) -> float:
+    """Twice."""
+    return 2 * x
+'''
+
+
+class TestOperators:
+    def test_by_name(self, registry: Registry) -> None:
+        """An operator is found by its name."""
+        assert registry.operator("toy.add").name == "toy.add"
+
+    def test_unknown(self, registry: Registry) -> None:
+        """An unknown name is told the nearest."""
+        with pytest.raises(UnknownOperator) as caught:
+            registry.operator("toy.ad")
+        assert caught.value.nearest[0] == "toy.add"
+
+    def test_added_wins(self, registry: Registry) -> None:
+        """A function of one's own takes the place of an installed one."""
+
+        @node("toy.add")
+        def mine(a: float) -> float:
+            return a
+
+        registry.add(mine)
+        assert registry.operator("toy.add").function is mine
+
+    def test_plain_function(self, registry: Registry) -> None:
+        """A function without @node is refused."""
+        with pytest.raises(TypeError, match="@node"):
+            registry.add(len)
+
+    def test_extension_leaves_the_original(self, registry: Registry) -> None:
+        """What is added to an extended registry is not in the first."""
+
+        @node("toy.new")
+        def new(a: float) -> float:
+            return a
+
+        registry.extended().add(new)
+        assert "toy.new" not in registry.names()
+
+
+class TestAlternatives:
+    def test_same_ports(self, registry: Registry) -> None:
+        """Operators of a family whose ports agree may take each other's place, others may not."""
+        names = {other.name for other in registry.alternatives(registry.operator("toy.add"))}
+        assert "toy.subtract" in names
+        assert "toy.grid" not in names
+        assert "toy.add" not in names
+
+
+class TestPluginFiles:
+    def test_added(self, registry: Registry, tmp_path: Path) -> None:
+        """A plug-in file adds its operators."""
+        path = tmp_path / "plug.py"
+        path.write_text(PLUGIN)
+        assert registry.add_file(path) == ["mine.double"]
+        assert registry.operator("mine.double").function(2.0) == 4
+
+    def test_twice(self, registry: Registry, tmp_path: Path) -> None:
+        """The same file may be named twice."""
+        path = tmp_path / "plug.py"
+        path.write_text(PLUGIN)
+        registry.add_file(path)
+        assert registry.add_file(path) == ["mine.double"]
+
+    @pytest.mark.parametrize("text", ["x = 1", "def f(:", "raise RuntimeError('no')", "import nonexistent_module"])
+    def test_unusable(self, registry: Registry, tmp_path: Path, text: str) -> None:
+        """A file that cannot be imported or declares nothing is named."""
+        path = tmp_path / "plug.py"
+        path.write_text(text)
+        with pytest.raises(PluginError) as caught:
+            registry.add_file(path)
+        assert caught.value.path == path
+
+    @pytest.mark.parametrize("name", ["none.py", "", "notes.txt"])
+    def test_missing(self, registry: Registry, tmp_path: Path, name: str) -> None:
+        """A file that is not there, a folder, or no Python file is named."""
+        with pytest.raises(PluginError):
+            registry.add_file(tmp_path / name)
+
+
+class TestTypes:
+    @pytest.mark.parametrize(
+        "text", ["Grid", "Grid | None", "list[Grid]", "Grid | float", "list[list[Grid | None]]", "int"]
+    )
+    def test_round_trip(self, registry: Registry, text: str) -> None:
+        """A type prints as graph files write it."""
+        assert str(registry.type(text)) == text
+
+    def test_any(self, registry: Registry) -> None:
+        """`Any` takes everything, None included."""
+        assert registry.type("Any").accepts(registry.type("Grid | None"))
+
+    def test_unknown(self, registry: Registry) -> None:
+        """An unknown type is told the nearest."""
+        with pytest.raises(UnknownType) as caught:
+            registry.type("Gird")
+        assert caught.value.nearest[0] == "Grid"
