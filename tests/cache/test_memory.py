@@ -1,0 +1,171 @@
+"""The memory tier holds what is worth most per byte, within its budget, counting every array once."""
+
+import threading
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphface.cache.memory import MISSING, MemoryTier
+
+KIB = 1024
+
+
+def array(kib: int = 1) -> np.ndarray:
+    return np.zeros(kib * KIB, np.uint8)
+
+
+def key(number: int) -> bytes:
+    return number.to_bytes(16, "big")
+
+
+class TestValues:
+    def test_get(self) -> None:
+        """A value comes back as the same object."""
+        tier, held = MemoryTier(), array()
+        tier.put(key(1), held, 1.0, (held,))
+        assert tier.get(key(1)) is held
+        assert key(1) in tier
+
+    @pytest.mark.parametrize("value", [None, 0, False, ""])
+    def test_falsy(self, value: object) -> None:
+        """A value that is nothing is held like any other."""
+        tier = MemoryTier()
+        tier.put(key(1), value, 1.0)
+        assert tier.get(key(1)) is value
+
+    def test_missing(self) -> None:
+        """What is not there is `MISSING`, not None."""
+        assert MemoryTier().get(key(1)) is MISSING
+
+    def test_first_put_stays(self) -> None:
+        """A key means one value: the first one put."""
+        tier = MemoryTier()
+        tier.put(key(1), "first", 1.0)
+        tier.put(key(1), "second", 1.0)
+        assert tier.get(key(1)) == "first"
+
+    def test_clear(self) -> None:
+        """Cleared, it holds nothing and counts nothing."""
+        tier, held = MemoryTier(), array()
+        tier.put(key(1), held, 1.0, (held,))
+        tier.clear()
+        assert (len(tier), tier.bytes, tier.get(key(1))) == (0, 0, MISSING)
+
+
+class TestBudget:
+    def test_shared_array_counts_once(self) -> None:
+        """An array is counted once however many values hold it."""
+        tier, held = MemoryTier(), array(100)
+        for number in range(10):
+            tier.put(key(number), held, 1.0, (held,))
+        assert 100 * KIB <= tier.bytes < 110 * KIB
+
+    def test_shared_array_counts_until_the_last(self) -> None:
+        """Its bytes are given back when its last holder goes, not before."""
+        tier, held = MemoryTier(budget=150 * KIB), array(100)
+        tier.put(key(1), held, 0.0, (held,))
+        tier.put(key(2), held, 1.0, (held,))
+        other = array(60)
+        tier.put(key(3), other, 5.0, (other,))
+        assert tier.bytes <= 150 * KIB
+        assert key(3) in tier
+        assert key(2) not in tier
+
+    def test_larger_than_the_budget(self) -> None:
+        """A value larger than the whole budget is not kept, and drops nothing."""
+        tier, small, large = MemoryTier(budget=10 * KIB), array(1), array(11)
+        tier.put(key(1), small, 1.0, (small,))
+        tier.put(key(2), large, 100.0, (large,))
+        assert key(1) in tier
+        assert key(2) not in tier
+
+    @given(
+        st.lists(st.tuples(st.integers(0, 30), st.integers(1, 12), st.floats(0, 10), st.booleans()), max_size=60),
+        st.integers(4, 40),
+    )
+    def test_never_above(self, puts: list[tuple[int, int, float, bool]], budget: int) -> None:
+        """After any sequence of puts and gets the count is right and not above the budget."""
+        tier, pool = MemoryTier(budget=budget * KIB), [array(k) for k in range(1, 13)]
+        for number, size, seconds, look in puts:
+            held = (pool[size - 1], pool[0])
+            if look:
+                tier.get(key(number))
+            tier.put(key(number), held, seconds, held)
+            assert tier.bytes <= tier.budget
+            alive = {id(a): a.nbytes for k in list(tier._values) for a in tier._values[k]}
+            assert tier.bytes == sum(alive.values()) + 200 * len(tier)
+
+
+class TestEviction:
+    def test_cheapest_per_byte_goes_first(self) -> None:
+        """What costs least to compute again per byte held goes first, whenever it was used."""
+        tier = MemoryTier(budget=100 * KIB)
+        for number, seconds in ((1, 5.0), (2, 0.1), (3, 9.0)):
+            held = array(40)
+            tier.put(key(number), held, seconds, (held,))
+        assert [key(n) in tier for n in (1, 2, 3)] == [True, False, True]
+
+    def test_size_matters(self) -> None:
+        """Of two equally dear, the larger goes."""
+        tier = MemoryTier(budget=100 * KIB)
+        for number, kib in ((1, 10), (2, 60), (3, 40)):
+            held = array(kib)
+            tier.put(key(number), held, 1.0, (held,))
+        assert [key(n) in tier for n in (1, 2, 3)] == [True, False, True]
+
+    def test_longest_unused_among_equals(self) -> None:
+        """Among equals the longest unused goes."""
+        tier = MemoryTier(budget=100 * KIB)
+        for number in (1, 2):
+            held = array(40)
+            tier.put(key(number), held, 1.0, (held,))
+        tier.get(key(1))
+        held = array(40)
+        tier.put(key(3), held, 1.0, (held,))
+        assert [key(n) in tier for n in (1, 2, 3)] == [True, False, True]
+
+    def test_cheap_holders_of_one_array(self) -> None:
+        """Many cheap values over one large array do not keep it at the expense of a dear one."""
+        tier, photo = MemoryTier(budget=100 * KIB), array(50)
+        tier.put(key(1), photo, 1e-3, (photo,))
+        tier.put(key(2), photo, 1e-6, (photo,))
+        for number in (3, 4):
+            dear = array(30)
+            tier.put(key(number), dear, 5.0, (dear,))
+        assert [key(n) in tier for n in (1, 2, 3, 4)] == [False, False, True, True]
+
+    def test_newest_stays(self) -> None:
+        """What was just computed is not dropped to make room for what was there."""
+        tier, old, new = MemoryTier(budget=100 * KIB), array(80), array(80)
+        tier.put(key(1), old, 100.0, (old,))
+        tier.put(key(2), new, 0.0, (new,))
+        assert key(2) in tier
+
+    def test_remembered(self) -> None:
+        """What was evicted is known, so that a run can say why it computes it again."""
+        tier = MemoryTier(budget=50 * KIB)
+        for number in (1, 2):
+            held = array(40)
+            tier.put(key(number), held, 1.0, (held,))
+        assert tier.evicted == {key(1)}
+
+
+class TestThreads:
+    def test_puts_and_gets(self) -> None:
+        """Threads may share it: counts stay right."""
+        tier, pool = MemoryTier(budget=64 * KIB), [array(1 + k % 7) for k in range(200)]
+
+        def work(offset: int) -> None:
+            for step in range(400):
+                number = (step * 7 + offset) % 200
+                if tier.get(key(number)) is MISSING:
+                    tier.put(key(number), pool[number], 1.0, (pool[number],))
+
+        threads = [threading.Thread(target=work, args=(i * 31,)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert tier.bytes == sum(v.nbytes for v in tier._values.values()) + 200 * len(tier) <= tier.budget
