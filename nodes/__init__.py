@@ -33,6 +33,7 @@ pack = Pack(
                 "Detail",
                 "DetailMap",
                 "Gain",
+                "HeadMasks",
                 "Image",
                 "Intrinsic",
                 "Landmarks",
@@ -41,6 +42,7 @@ pack = Pack(
                 "Mask",
                 "Mesh",
                 "Normals",
+                "Segmentation",
                 "Shading",
                 "Surface",
             )

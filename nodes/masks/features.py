@@ -1,0 +1,90 @@
+"""What a pixel is told by: its colour, and the texture around it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.masks.texture import Bank, mr8
+from graphface.nodes.masks.window import Window, window_about
+from graphface.nodes.types import FloatArray, Image, Landmarks
+
+ColorSpace = Literal["lab", "rgb", "ycrcb", "hsv"]
+FeatureSet = Literal["color", "color+mr8"]
+
+TEXTURE_GAIN = 8.0
+"""Responses are this many times amplified, then compressed by asinh: a strand counts, a hard edge not for ever more."""
+
+TEXTURE_WEIGHT = 0.03
+"""Scale of texture beside colour. Mixtures have a least width, so a small scale blurs small differences of texture: on
+a flat backdrop the pixels just beside the head, whose filters reach into it, must not look like anything but backdrop."""
+
+
+@dataclass(frozen=True)
+class PixelFeatures:
+    """Features `values`, float32 h x w x D, of the part of a photo that `window` names."""
+
+    window: Window
+    values: FloatArray
+
+
+@node("masks.features")
+def pixel_features(
+    photo: Image,
+    landmarks: Landmarks,
+    *,
+    resolution: Annotated[int, Field(ge=8, le=512)] = 40,
+    space: ColorSpace = "lab",
+    kind: FeatureSet = "color+mr8",
+    bank: Bank = "pyramid",
+) -> PixelFeatures:
+    """Colour and texture around a face.
+
+    Args:
+        photo: of either encoding; its values are compared as they are.
+        landmarks: where to look.
+        resolution: pixels per inter-ocular distance that features are computed at; small faces keep their own size.
+        space, kind, bank: see `features`.
+    """
+    window = window_about(landmarks, photo.pixels.shape, resolution)
+    return PixelFeatures(window, features(window.shrunk(photo.pixels), space=space, kind=kind, bank=bank))
+
+
+def features(
+    pixels: FloatArray, *, space: ColorSpace = "lab", kind: FeatureSet = "color+mr8", bank: Bank = "pyramid"
+) -> FloatArray:
+    """One vector a pixel, float32 H x W x 3 or H x W x 11, of comparable ranges.
+
+    Args:
+        pixels: H x W x 3 sRGB-encoded; values beyond [0, 1] are clipped, non-finite ones become 0.
+        space: where colours are compared. kind: colour alone, or with the MR8 responses of the lightness.
+        bank: see `masks.texture.mr8`.
+    """
+    import cv2
+
+    clean = np.clip(np.nan_to_num(pixels, nan=0, posinf=1, neginf=0), 0, 1).astype(np.float32, copy=False)
+    color = in_space(clean, space)
+    if kind == "color":
+        return color
+    grey = np.asarray(cv2.cvtColor(clean, cv2.COLOR_RGB2GRAY), np.float32)
+    return np.concatenate([color, TEXTURE_WEIGHT * np.arcsinh(TEXTURE_GAIN * mr8(grey, bank))], axis=2, dtype=np.float32)
+
+
+def in_space(pixels: FloatArray, space: ColorSpace) -> FloatArray:
+    """RGB in [0, 1] to three channels of another space, scaled to ranges of about 1."""
+    import cv2
+
+    if space == "rgb":
+        return pixels
+    if space == "hsv":  # the hue as a point of the colour disc, or red would be two colours
+        hsv = cv2.cvtColor(pixels, cv2.COLOR_RGB2HSV)
+        hue = np.radians(hsv[..., 0])
+        return np.stack([hsv[..., 1] * np.cos(hue), hsv[..., 1] * np.sin(hue), hsv[..., 2]], axis=2).astype(np.float32)
+    if space == "ycrcb":
+        return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_RGB2YCrCb), np.float32)
+    lab = np.asarray(cv2.cvtColor(pixels, cv2.COLOR_RGB2Lab), np.float32)
+    return lab * np.float32([0.01, 0.02, 0.02])

@@ -1,0 +1,135 @@
+"""The hair detector (paper, section 2): a Gaussian mixture of the pixels at the top of this photo's head.
+
+Those pixels need not be hair. So the mixture has rivals, fitted to what is surely skin and surely background: a pixel
+that a rival explains about as well loses its say, and the mixture is fitted again. On a bald head or under nothing but
+backdrop little is left, and then there is no hair.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.masks.features import PixelFeatures
+from graphface.nodes.masks.mixture import Mixture, fit_mixture
+from graphface.nodes.masks.prior import Layout, layout_of
+from graphface.nodes.masks.head import CHIN, EYE_LINE
+from graphface.nodes.types import FloatArray, HeadMasks, Landmarks, Mask
+
+SAMPLES = 3000
+"""Pixels that a mixture is fitted to; taken at even steps."""
+
+
+@dataclass(frozen=True)
+class Hair:
+    """`response`: how much each pixel looks like this head's hair, 0..1; `mask`: that within the normal face mask."""
+
+    response: Mask
+    mask: Mask
+
+
+@node("masks.hair")
+def hair(
+    features: PixelFeatures,
+    masks: HeadMasks,
+    landmarks: Landmarks,
+    *,
+    components: Annotated[int, Field(ge=1, le=16)] = 4,
+    margin: Annotated[float, Field(ge=0, le=20)] = 3.0,
+    least: Annotated[float, Field(ge=0, le=1)] = 0.06,
+    rounds: Annotated[int, Field(ge=1, le=10)] = 4,
+) -> Hair:
+    """Find hair by the colours and textures on top of this head.
+
+    Args:
+        features: of the photo. masks: from the projected geometry.
+        components: Gaussians in each mixture.
+        margin: log-likelihood by which hair must beat skin and background.
+        least: where less than this share of the head's top looks like hair, there is none.
+        rounds: times the mixture is fitted to what its rivals left.
+
+    Returns:
+        Maps of the photo's size.
+    """
+    window, values = features.window, features.values
+    layout = layout_of(landmarks, window)
+    conservative, normal, aggressive = (
+        window.shrunk(m) for m in (masks.conservative, masks.normal, masks.aggressive)
+    )
+    shape = masks.normal.shape
+    top = (normal > 0.5) & (layout.outline > 0.05) & (layout.high > EYE_LINE + 0.15)
+    skin = skin_mixture(values, (conservative > 0.5) & ~layout.features, components)
+    beside = backdrop_mixture(values, (aggressive < 0.5) & (layout.high > CHIN), components)
+    mixture = detector(values[top], [m for m in (skin, beside) if m is not None], components, margin, least, rounds)
+    if mixture is None:
+        nothing = np.zeros(shape, np.float32)
+        return Hair(nothing, nothing)
+    flat = values.reshape(-1, values.shape[2])
+    lead = mixture.log_likelihood(flat) - rival_likelihood(flat, [m for m in (skin, beside) if m is not None])
+    response = window.enlarged(sigmoid(lead - margin).reshape(values.shape[:2]), shape, beyond=0)
+    return Hair(response, response * masks.normal)
+
+
+def detector(
+    samples: FloatArray, rivals: list[Mixture], components: int, margin: float, least: float, rounds: int
+) -> Mixture | None:
+    """A mixture of the samples (n, D) that no rival explains, or None where too few are left."""
+    samples = thinned(samples)
+    rival = rival_likelihood(samples, rivals)
+    weights: FloatArray = np.ones(len(samples), np.float32)
+    mixture = fit_mixture(samples, weights, components=components)
+    for _ in range(rounds):
+        if mixture is None:
+            return None
+        weights = sigmoid(mixture.log_likelihood(samples) - rival - margin)
+        if weights.mean() < least:
+            return None
+        mixture = fit_mixture(samples, weights, components=components)
+    return mixture
+
+
+def skin_mixture(values: FloatArray, where: NDArray[np.bool_], components: int) -> Mixture | None:
+    """A mixture of the skin's pixels: those far from their median (a beard, a fringe, glasses) weigh little.
+
+    Lightness, the first feature, gets more room: a forehead shines, a neck lies in shadow.
+    """
+    samples = thinned(values[where])
+    if not len(samples):
+        return None
+    colors = samples[:, :3]
+    middle = np.median(colors, axis=0)
+    away = np.abs(colors - middle)
+    spread = np.maximum(1.5 * np.median(away, axis=0), 0.03)
+    weights = np.exp(-0.5 * np.square(np.max(away / spread, axis=1) / 2.0))
+    mixture = fit_mixture(samples, weights, components=components)
+    if mixture is None:
+        return None
+    widened = mixture.covariances.copy()
+    widened[:, 0, 0] += 0.06**2
+    return Mixture(mixture.weights, mixture.means, widened)
+
+
+def backdrop_mixture(values: FloatArray, where: NDArray[np.bool_], components: int) -> Mixture | None:
+    return fit_mixture(thinned(values[where]), components=components + 2)
+
+
+def rival_likelihood(samples: FloatArray, rivals: list[Mixture]) -> FloatArray:
+    """The best log-likelihood that any rival gives each sample; very low where there are no rivals."""
+    best = np.full(len(samples), -1e3, np.float32)
+    for mixture in rivals:
+        np.maximum(best, mixture.log_likelihood(samples), out=best)
+    return best
+
+
+def thinned(samples: FloatArray, most: int = SAMPLES) -> FloatArray:
+    """At most about `most` of the samples, at even steps."""
+    return samples[:: max(1, -(-len(samples) // most))]
+
+
+def sigmoid(x: FloatArray) -> FloatArray:
+    return np.asarray(1 / (1 + np.exp(-np.clip(x, -60, 60))), np.float32)
