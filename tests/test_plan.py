@@ -159,5 +159,5 @@ class TestFates:
 
     def test_every_node_in_order(self, registry: Registry) -> None:
         """Every node of the graph is told, in an order that runs."""
-        assert list(planned(graph_of(self.NODES, registry), Evaluator(), ["a"]))[0] == "a"
+        assert next(iter(planned(graph_of(self.NODES, registry), Evaluator(), ["a"]))) == "a"
         assert len(planned(graph_of(self.NODES, registry), Evaluator(), ["a"])) == 5

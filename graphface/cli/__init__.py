@@ -16,6 +16,7 @@ import typer
 from graphface.cli import assets, cache, explain, new, nodes, plan, run, schema, show
 
 ENTRY_POINTS = "graphface.commands"
+_INTERRUPTED = 130
 
 
 def build() -> typer.Typer:
@@ -60,12 +61,14 @@ def _guarded(arguments: list[str] | None) -> int:
 
     try:
         result = build()(arguments, standalone_mode=False)
+        if result == _INTERRUPTED:  # some versions of typer turn the interrupt into this exit code
+            raise KeyboardInterrupt
     except GraphfaceError as error:
         _say(_message(error))
         return 2 if isinstance(error, UsageError) else 1
     except (KeyboardInterrupt, typer.Abort):
         _say("interrupted; what was computed is kept where a cache is in use")
-        return 130
+        return _INTERRUPTED
     except BrokenPipeError:
         sys.stderr.close()
         return 1
@@ -98,14 +101,20 @@ def _say(message: str) -> None:
     print(f"error: {message}", file=sys.stderr)
 
 
-def _version(
-    version: bool = typer.Option(False, "--version", help="Show the version and leave.", is_eager=True),
-) -> None:
-    if version:
+def _show_version(wanted: bool) -> None:
+    if wanted:
         from graphface import __version__
 
         print(f"graphface {__version__}")
         raise typer.Exit
+
+
+def _version(
+    version: bool = typer.Option(
+        False, "--version", help="Show the version and leave.", is_eager=True, callback=_show_version
+    ),
+) -> None:
+    """An option of the program itself, answered before a command is looked for."""
 
 
 def __getattr__(name: str) -> Any:

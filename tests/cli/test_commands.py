@@ -1,0 +1,161 @@
+"""The other commands, and what all of them share."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from graphface import __version__
+
+HEAVY = ("numpy", "networkx", "cv2", "scipy", "yaml", "PIL", "skimage", "sklearn")
+
+
+class TestLight:
+    @pytest.mark.parametrize(
+        "program",
+        [
+            "import graphface",
+            "import graphface.nodes",
+            "from graphface.cli import main\ntry: main(['--help'])\nexcept SystemExit: pass",
+            "from graphface.cli import main\ntry: main(['--version'])\nexcept SystemExit: pass",
+            "from graphface.cli import main\ntry: main(['run', '--help'])\nexcept SystemExit: pass",
+        ],
+    )
+    def test_imports(self, process: Callable[..., object], program: str) -> None:
+        """Importing the package, and help, load no library of arrays, graphs or validation."""
+        done = process(f"{program}\nimport sys\nprint('loaded:', *[m for m in {HEAVY!r} if m in sys.modules])")
+        assert done.returncode == 0
+        assert done.stdout.splitlines()[-1].strip() == "loaded:"
+
+    def test_package_alone(self, process: Callable[..., object]) -> None:
+        """Importing the package loads no pydantic either (the command line's own library may)."""
+        done = process("import graphface, graphface.nodes, sys; assert 'pydantic' not in sys.modules")
+        assert done.returncode == 0, done.stderr
+
+    def test_networkx_is_not_needed_to_run(self, process: Callable[..., object]) -> None:
+        """Loading and running a graph without a cycle does not import networkx."""
+        text = "graphface: 1\\ninputs: {x: float}\\noutputs: {y: x}\\n"
+        done = process(
+            f"import sys, graphface\nassert graphface.load('{text}').run(x=1.0)['y'] == 1\n"
+            "assert 'networkx' not in sys.modules"
+        )
+        assert done.returncode == 0, done.stderr
+
+
+class TestTop:
+    def test_version(self, graphface: Callable[..., object]) -> None:
+        """`--version` says the version."""
+        said = graphface("--version")
+        assert (said.code, said.out.strip()) == (0, f"graphface {__version__}")
+
+    def test_help(self, graphface: Callable[..., object]) -> None:
+        """`--help` lists the commands."""
+        said = graphface("--help")
+        assert said.code == 0
+        for command in ("run", "plan", "nodes", "assets"):
+            assert command in said.out
+
+    def test_no_arguments(self, graphface: Callable[..., object]) -> None:
+        """Without arguments the help is shown."""
+        said = graphface()
+        assert said.code in (0, 2)
+        assert "Usage" in said.out + said.err
+
+    def test_unknown_command(self, graphface: Callable[..., object]) -> None:
+        """An unknown command is a wrong request."""
+        said = graphface("rum")
+        assert said.code == 2
+        assert "rum" in said.err
+
+    def test_internal_error(self, graphface: Callable[..., object], monkeypatch: pytest.MonkeyPatch) -> None:
+        """A mistake of the program itself is one line that says how to see more."""
+
+        def broken(*_: object, **__: object) -> None:
+            raise KeyError("oops")
+
+        monkeypatch.setattr("graphface.graph.load", broken)
+        said = graphface("plan", "x.yaml")
+        assert said.code == 1
+        assert "GRAPHFACE_TRACEBACK" in said.err
+        assert len(said.err.strip().splitlines()) == 1
+
+
+class TestPlan:
+    def test_table(self, graphface: Callable[..., object], graph: Path, plugin: list[str]) -> None:
+        """Every node is told with what would become of it and why."""
+        said = graphface("plan", graph, *plugin)
+        assert said.code == 0
+        lines = {line.split()[0]: line for line in said.out.splitlines() if line.strip()}
+        assert " run " in lines["s"]
+        assert "not needed for scaled" in lines["unused"]
+
+    def test_output(self, graphface: Callable[..., object], graph: Path, plugin: list[str]) -> None:
+        """`-o` asks for something else; a file behind it does not matter."""
+        said = graphface("plan", graph, *plugin, "-o", "unused=x.png")
+        lines = {line.split()[0]: line for line in said.out.splitlines() if line.strip()}
+        assert " run " in lines["unused"]
+        assert "skipped" in lines["s"]
+
+    def test_brackets_in_a_reason(self, graphface: Callable[..., object], tmp_path: Path) -> None:
+        """A rule's reason is shown as it is, brackets and all."""
+        plugin = tmp_path / "plug.py"
+        plugin.write_text(
+            "from graphface import Lazy, node\n"
+            "def rule():\n    return {'extra': 'the range is [/lo, hi] of [red]'}\n"
+            "@node('mine.gate', needs=rule)\n"
+            "def gate(a: float, extra: Lazy[float]) -> float:\n    '''Lies in [low, high].'''\n    return a\n"
+        )
+        path = tmp_path / "g.yaml"
+        path.write_text(
+            "graphface: 1\ninputs: {x: {type: float, default: 1}}\nnodes:\n  n: {use: mine.gate, in: {a: x}}\n"
+            "  g: {use: mine.gate, in: {a: x, extra: n}}\noutputs: {y: g}\n"
+        )
+        said = graphface("plan", path, "--plugin", plugin)
+        assert said.code == 0
+        assert "the range is [/lo, hi] of [red]" in said.out
+        assert "Lies in [low, high]." in graphface("nodes", "--plugin", plugin).out
+
+
+class TestNodes:
+    def test_reference(self, graphface: Callable[..., object], plugin: list[str]) -> None:
+        """`nodes NAME` tells ports, parameters with their limits, and what may replace it."""
+        said = graphface("nodes", "toy.ranged", *plugin)
+        assert said.code == 0
+        for part in ("toy.ranged", "count", ">= 1", "<= 8", "required"):
+            assert part in said.out
+
+    def test_unknown(self, graphface: Callable[..., object], plugin: list[str]) -> None:
+        """An unknown operator is told the nearest."""
+        said = graphface("nodes", "toy.rnged", *plugin)
+        assert said.code == 2
+        assert "toy.ranged" in said.err
+
+    def test_alternatives(self, graphface: Callable[..., object], plugin: list[str]) -> None:
+        """What may take its place is told."""
+        assert "toy.subtract" in graphface("nodes", "toy.add", *plugin).out
+
+
+class TestAssets:
+    def test_unknown(self, graphface: Callable[..., object]) -> None:
+        """An unknown asset is a wrong request."""
+        said = graphface("assets", "path", "none")
+        assert said.code == 2
+        assert "none" in said.err
+
+
+class TestEveryCommand:
+    @pytest.mark.parametrize("command", ["plan", "show", "explain"])
+    def test_wrong_graph(self, graphface: Callable[..., object], tmp_path: Path, command: str) -> None:
+        """Every command that takes a graph answers a wrong one alike."""
+        path = tmp_path / "bad.yaml"
+        path.write_text("graphface: 1\nnodes: {x: 3}\n")
+        said = graphface(command, path)
+        assert said.code == 2
+        assert "bad.yaml:2:12" in said.err
+
+    def test_schema_is_json(self, graphface: Callable[..., object]) -> None:
+        """`schema` prints JSON."""
+        said = graphface("schema")
+        assert said.code == 0
+        assert json.loads(said.out)

@@ -1,0 +1,200 @@
+"""`graphface run` writes what was asked for, or says in a line why not, and leaves nothing half-written."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+Run = Callable[..., object]
+
+
+@pytest.fixture
+def run(graphface: Callable[..., object], graph: Path, plugin: list[str]) -> Run:
+    return lambda *arguments: graphface("run", graph, *plugin, *arguments)
+
+
+class TestWriting:
+    def test_first_output(self, run: Run, tmp_path: Path) -> None:
+        """A bare file is the graph's first output."""
+        assert run("-o", tmp_path / "a.npy").code == 0
+        np.testing.assert_array_equal(np.load(tmp_path / "a.npy"), np.full((4, 4), 3.0))
+
+    def test_any_node(self, run: Run, tmp_path: Path) -> None:
+        """Any node can be asked for by name, several at once."""
+        assert run("-o", f"g={tmp_path / 'g.npy'}", "-o", f"scaled={tmp_path / 's.npy'}").code == 0
+        assert np.load(tmp_path / "g.npy").max() == 1
+
+    def test_settings(self, run: Run, tmp_path: Path) -> None:
+        """Flags reach the graph."""
+        run("-o", tmp_path / "a.npy", "--profile", "draft", "--set", "s.by=7")
+        np.testing.assert_array_equal(np.load(tmp_path / "a.npy"), np.full((2, 2), 7.0))
+
+    def test_replaces_a_file(self, run: Run, tmp_path: Path) -> None:
+        """A file that is there is replaced as a whole."""
+        (tmp_path / "a.npy").write_text("old")
+        assert run("-o", tmp_path / "a.npy").code == 0
+        assert np.load(tmp_path / "a.npy").shape == (4, 4)
+
+    def test_nothing_beside(self, run: Run, tmp_path: Path) -> None:
+        """No temporary file is left."""
+        run("-o", tmp_path / "a.npy")
+        assert sorted(p.name for p in tmp_path.iterdir()) == ["a.npy", "g.yaml"]
+
+    def test_times(self, run: Run, tmp_path: Path) -> None:
+        """`--times` tells every node that ran, and no other."""
+        said = run("-o", tmp_path / "a.npy", "--times")
+        assert "toy.scale" in said.out
+        assert "toy.add" not in said.out
+
+    def test_guard_warn(self, run: Run, tmp_path: Path) -> None:
+        """With `--guard warn` the value is written and a warning said."""
+        said = run("-o", f"nan={tmp_path / 'n.npy'}", "--guard", "warn")
+        assert said.code == 0
+        assert "warning: nan" in said.err
+
+    def test_name_from_an_input(self, run: Run, tmp_path: Path) -> None:
+        """{x} in a file name is an input's name, and cannot lead out of the folder."""
+        (tmp_path / "out").mkdir()
+        assert run("-i", "x=3", "-o", tmp_path / "out" / "{x}.npy").code == 0
+        assert (tmp_path / "out" / "3.npy").is_file()
+
+
+class TestRefused:
+    """Exit code 2: the request is wrong, and nothing was run."""
+
+    @pytest.mark.parametrize(
+        ("arguments", "said"),
+        [
+            ((), "no output"),
+            (("-o", "nowhere/a.npy"), "nowhere"),
+            (("-o", "a.npy", "-o", "a.npy"), "twice"),
+            (("-o", "zzz=a.npy"), "zzz"),
+            (("-o", "a.npy", "-i", "y=1"), "'y'"),
+            (("-o", "a.npy", "-i", "x"), "NAME=VALUE"),
+            (("-o", "unused=a.npz", "-i", "x=red"), "'x'"),
+            (("-o", "a.npy", "--set", "s.byy=1"), "did you mean 'by'"),
+            (("-o", "a.npy", "--set", "s.by=red"), "'by'"),
+            (("-o", "a.npy", "--set", "sby"), "--set"),
+            (("-o", "a.npy", "--replace", "s"), "--replace"),
+            (("-o", "a.npy", "--profile", "draf"), "did you mean 'draft'"),
+            (("-o", "a.npy", "--variant", "v"), "'v'"),
+            (("-o", "a.npy", "--guard", "maybe"), "--guard"),
+            (("-o", "a.npy", "--plugin", "none.py"), "none.py"),
+            (
+                (
+                    "-o",
+                    "{zz}.npy",
+                ),
+                "'zz'",
+            ),
+            (("--threads", "-1", "-o", "a.npy"), "--threads"),
+            (("--nonsense",), "--nonsense"),
+        ],
+    )
+    def test_request(
+        self, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], said: str
+    ) -> None:
+        """What is wrong with it is said in few lines."""
+        monkeypatch.chdir(tmp_path)
+        answer = run(*arguments)
+        assert answer.code in (1, 2) if "nowhere" in said else answer.code == 2
+        assert said in answer.err
+        assert sorted(p.name for p in tmp_path.iterdir()) == ["g.yaml"]
+
+    def test_unknown_graph(self, graphface: Callable[..., object], tmp_path: Path) -> None:
+        """A graph that is not there is named, in one line."""
+        answer = graphface("run", tmp_path / "none.yaml", "-o", "a.npy")
+        assert answer.code == 2
+        assert "none.yaml" in answer.err
+        assert len(answer.err.strip().splitlines()) == 1
+
+    @pytest.mark.parametrize(
+        "content", [b"\xff\xfe\x00", b"\x00" * 50, b"a: [", b"[]", b"graphface: 1\nnodes: {x: {use: y.z}}"]
+    )
+    def test_no_graph(self, graphface: Callable[..., object], tmp_path: Path, content: bytes) -> None:
+        """A file that is no graph is told with its place."""
+        path = tmp_path / "bad.yaml"
+        path.write_bytes(content)
+        answer = graphface("run", path, "-o", "a.npy")
+        assert answer.code == 2
+        assert "bad.yaml" in answer.err
+
+    def test_place_and_caret(self, graphface: Callable[..., object], tmp_path: Path, plugin: list[str]) -> None:
+        """A mistake in a graph is shown with file, line, column, the line and a caret."""
+        path = tmp_path / "bad.yaml"
+        path.write_text("graphface: 1\nnodes:\n  x: {use: toy.number, with: {valeu: 1}}\n")
+        answer = graphface("run", path, "-o", "x=a.npy", *plugin)
+        assert f"{path}:3:31" in answer.err
+        assert "did you mean 'value'" in answer.err
+        lines = answer.err.splitlines()
+        caret = next(i for i, line in enumerate(lines) if line.strip() == "^")
+        assert lines[caret - 1][lines[caret].index("^") :].startswith("valeu")
+
+
+class TestFailed:
+    """Exit code 1: the request was understood and failed on the way."""
+
+    def test_node(self, run: Run, tmp_path: Path) -> None:
+        """A node that fails is named with its operator, place, inputs and reason."""
+        answer = run("-o", f"bad={tmp_path / 'a.npz'}")
+        assert answer.code == 1
+        for part in ("g.yaml:8:3", "'bad'", "toy.fail", "it broke", "a: 2"):
+            assert part in answer.err
+        assert not (tmp_path / "a.npz").exists()
+
+    def test_not_finite(self, run: Run, tmp_path: Path) -> None:
+        """So is one that gives NaN."""
+        answer = run("-o", f"nan={tmp_path / 'a.npy'}")
+        assert answer.code == 1
+        assert "1 non-finite of 16" in answer.err
+
+    def test_folder_as_file(self, run: Run, tmp_path: Path) -> None:
+        """A folder cannot be the output; that is seen before anything runs."""
+        answer = run("-o", tmp_path)
+        assert answer.code == 1
+        assert "is a folder" in answer.err
+
+    @pytest.mark.skipif(os.geteuid() == 0, reason="root may write into read-only folders")
+    def test_read_only_folder(self, run: Run, tmp_path: Path) -> None:
+        """Nor can a file in a folder that cannot be written to."""
+        folder = tmp_path / "locked"
+        folder.mkdir(mode=0o500)
+        answer = run("-o", folder / "a.npy")
+        assert answer.code == 1
+        assert "cannot write" in answer.err
+
+    def test_unwritable_type(self, run: Run, tmp_path: Path) -> None:
+        """A value that cannot be written as asked is told, and no empty file stays."""
+        answer = run("-o", f"scaled={tmp_path / 'a.xyz'}")
+        assert answer.code == 1
+        assert not (tmp_path / "a.xyz").exists()
+
+
+class TestInterrupted:
+    @pytest.mark.parametrize("threads", [1, 2])
+    def test_control_c(self, tmp_path: Path, plugin: list[str], threads: int) -> None:
+        """Ctrl-C ends with 130 and a line, after the node under way; what was computed is in the cache."""
+        path, cache = tmp_path / "slow.yaml", tmp_path / "cache"
+        nodes = ["  n0: {use: toy.slow, in: {a: x}}"]
+        nodes += [f"  n{i}: {{use: toy.slow, in: {{a: n{i - 1}}}, with: {{seconds: 0.05}}}}" for i in range(1, 400)]
+        path.write_text("graphface: 1\ninputs: {x: {type: float, default: 1}}\nnodes:\n" + "\n".join(nodes) + "\n")
+        program = "import sys; from graphface.cli import main; main(sys.argv[1:])"
+        arguments = ["run", str(path), *plugin, "-o", f"n399={tmp_path / 'a.npz'}", "--cache", str(cache)]
+        running = subprocess.Popen(
+            [sys.executable, "-c", program, *arguments, "--threads", str(threads)], stderr=subprocess.PIPE, text=True
+        )
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline and len(list(cache.rglob("*"))) < 8:
+            time.sleep(0.02)
+        running.send_signal(signal.SIGINT)
+        _, err = running.communicate(timeout=30)
+        assert running.returncode == 130
+        assert "Traceback" not in err
+        assert "interrupted" in err
+        assert sorted(p.name for p in tmp_path.iterdir()) == ["cache", "slow.yaml"]
