@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from graphface.located import Place
+    from graphface.observe import Record
 
 
 class GraphfaceError(Exception):
@@ -129,11 +130,17 @@ class NonFiniteError(NodeError):
 
 
 class RunFailed(RunError):
-    """One or more nodes failed; `failures` has each, `finished` the values of outputs that did not need them."""
+    """One or more nodes failed; `failures` has each, `finished` the values of outputs that did not need them.
 
-    def __init__(self, failures: Sequence[NodeError], finished: dict[str, object]) -> None:
+    `records` says what became of every node.
+    """
+
+    def __init__(
+        self, failures: Sequence[NodeError], finished: dict[str, object], records: Sequence[Record] = ()
+    ) -> None:
         self.failures = list(failures)
         self.finished = finished
+        self.records = list(records)
         super().__init__("\n".join(str(f) for f in self.failures))
 
 

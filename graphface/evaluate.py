@@ -170,7 +170,7 @@ class _Run:
                 values[name] = _take(self._done[key], ref.fields)
         failures = [f for f in self._failed.values() if f is not None]
         if failures:
-            raise RunFailed(failures, values)
+            raise RunFailed(failures, values, self._records)
         return Result(values, self._records)
 
     # --- demand -----------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
@@ -80,7 +81,7 @@ def print_plan(planned: Sequence[Planned]) -> None:
     table = _table("node", "operator", "fate", "key", "why")
     for entry in planned:
         style = _FATE_STYLES[entry.fate]
-        table.add_row(entry.name, entry.operator, f"[{style}]{entry.fate}[/]", entry.key, entry.reason)
+        table.add_row(entry.name, entry.operator, f"[{style}]{entry.fate}[/]", entry.key, escape(entry.reason))
     _console().print(table)
 
 
@@ -88,24 +89,24 @@ def print_operators(operators: Sequence[Operator]) -> None:
     table = _table("operator", "takes", "gives", "")
     for operator in operators:
         takes = ", ".join(operator.inputs)
-        table.add_row(operator.name, takes, str(operator.output), operator.doc.partition("\n")[0])
+        table.add_row(operator.name, takes, escape(str(operator.output)), escape(operator.doc.partition("\n")[0]))
     _console().print(table)
 
 
 def print_operator(operator: Operator, alternatives: Sequence[str]) -> None:
     console = _console()
-    console.print(f"[bold]{operator.name}[/bold] -> {operator.output}")
+    console.print(f"[bold]{operator.name}[/bold] -> {escape(str(operator.output))}")
     console.print(operator.doc, markup=False, highlight=False)
     ports = _table("port", "type", "")
     for port in operator.inputs.values():
         kind = "lazy" if port.lazy else "" if port.required else "optional"
-        ports.add_row(port.name, str(port.type), kind)
+        ports.add_row(port.name, escape(str(port.type)), kind)
     if operator.inputs:
         console.print(ports)
     if operator.outputs:
         fields = _table("output", "type")
         for name, declared in operator.outputs.items():
-            fields.add_row(f".{name}", str(declared))
+            fields.add_row(f".{name}", escape(str(declared)))
         console.print(fields)
     _print_parameters(console, operator)
     if alternatives:
@@ -119,7 +120,7 @@ def print_explained(explained: Sequence[Explained]) -> None:
         fate = f"[{style}]{entry.fate}[/]" if style else entry.fate
         ms = f"{entry.milliseconds:.1f}" if entry.milliseconds is not None else ""
         size = f"{entry.bytes / 1e6:.2f}" if entry.bytes else ""
-        table.add_row(entry.name, entry.operator, fate, ms, size, entry.key, entry.reason)
+        table.add_row(entry.name, entry.operator, fate, ms, size, entry.key, escape(entry.reason))
     _console().print(table)
 
 
@@ -144,7 +145,8 @@ def _print_parameters(console: Console, operator: Operator) -> None:
         return
     table = _table("parameter", "type", "default", "allowed")
     for name, described in properties.items():
-        table.add_row(name, _schema_type(described), str(described.get("default", "required")), _allowed(described))
+        default = str(described.get("default", "required"))
+        table.add_row(name, _schema_type(described), escape(default), escape(_allowed(described)))
     console.print(table)
 
 

@@ -7,8 +7,10 @@ allocation, so both are there only when a trace is asked for.
 from __future__ import annotations
 
 import json
+import math
 import platform
 import sys
+import threading
 import tracemalloc
 from collections.abc import Mapping, Sequence
 from importlib import metadata
@@ -32,38 +34,48 @@ class Trace(Observer):
     """Collects one run.
 
     Args:
-        peaks: measure each node's peak of allocated bytes (Python and NumPy; OpenCV's own memory is not seen). Only
-            meaningful with one thread; allocation becomes about twice as slow.
+        peaks: measure each node's peak of allocated bytes above what was there when it began (Python and NumPy;
+            OpenCV's own memory is not seen). Only meaningful with one thread; allocation becomes about twice as slow.
     """
 
     def __init__(self, *, peaks: bool = False) -> None:
         self.records: list[Record] = []
         self.summaries: dict[str, str] = {}
+        self.parameters: dict[str, dict[str, Any]] = {}
+        self.threads: dict[str, str] = {}
         self.peaks: dict[str, int] = {}
         self._measure = peaks
+        self._tracing = False
+        self._before: dict[str, int] = {}
 
     def run_started(self, steps: Sequence[Step]) -> None:
-        if self._measure:
+        for held in (self.summaries, self.threads, self.peaks):
+            held.clear()
+        self.parameters = {step.name: step.parameters for step in steps}
+        if self._measure and not tracemalloc.is_tracing():
             tracemalloc.start()
+            self._tracing = True
 
     def node_started(self, name: str, step: Step | None) -> None:
+        self.threads[name] = threading.current_thread().name
         if self._measure:
             tracemalloc.reset_peak()
-            self.peaks[name] = -tracemalloc.get_traced_memory()[0]
+            self._before[name] = tracemalloc.get_traced_memory()[0]
 
     def node_finished(self, record: Record, step: Step | None, value: Any) -> None:
-        if self._measure and record.state == "ran":
-            self.peaks[record.name] += tracemalloc.get_traced_memory()[1]
+        if record.name in self._before:
+            self.peaks[record.name] = max(0, tracemalloc.get_traced_memory()[1] - self._before.pop(record.name))
         if record.state in ("ran", "memory", "disk"):
             self.summaries[record.name] = describe(value)
 
     def run_finished(self, records: Sequence[Record]) -> None:
         self.records = list(records)
-        if self._measure:
+        if self._tracing:
             tracemalloc.stop()
+            self._tracing = False
 
     def as_json(self, graph: Graph, bound: Mapping[str, Bound]) -> dict[str, Any]:
-        """Versions, graph, inputs and every node of the run."""
+        """Versions, graph, inputs and every node of the run; a parameter that JSON does not know is its `repr`."""
         return {
             "versions": {"python": platform.python_version(), **_versions()},
             "platform": f"{sys.platform} {platform.machine()}",
@@ -92,10 +104,22 @@ class Trace(Observer):
             "cpu_ms": round(record.cpu * 1e3, 4),
             "bytes": record.bytes,
             "peak_bytes": self.peaks.get(record.name),
+            "thread": self.threads.get(record.name),
+            "parameters": _jsonable(self.parameters.get(record.name, {})),
             "value": self.summaries.get(record.name),
             "reason": record.reason,
             "warnings": list(record.warnings),
         }
+
+
+def _jsonable(value: Any) -> Any:
+    """A parameter as strict JSON has it; what JSON does not know (infinity, a path) is its `repr`."""
+    if isinstance(value, Mapping):
+        return {str(key): _jsonable(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_jsonable(item) for item in value]
+    known = type(value) in (str, int, bool, type(None)) or (type(value) is float and math.isfinite(value))
+    return value if known else repr(value)
 
 
 def _versions() -> dict[str, str]:

@@ -38,23 +38,31 @@ def explain(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Say for every node why it runs or not: first seen, a parameter, its code, an input changed, evicted, damaged."""
+    from graphface.errors import RunFailed
     from graphface.evaluate import Evaluator
-    from graphface.explain import History, history_folder, identities, with_results
+    from graphface.explain import Sizes, with_results
     from graphface.explain import explain as explain_plan
+    from graphface.history import History, Remember
     from graphface.terminal import print_explained
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     bound = loaded.bind(read_inputs(inputs))
     targets = loaded.targets([text.partition("=")[0] for text in output] or None)
     said: list[str] = []
-    evaluator = Evaluator(disk=open_cache(cache, said))
-    history = History(history_folder(cache))
+    disk = open_cache(cache, said)
+    history = History.beside(cache)
+    evaluator = Evaluator(disk=disk, observers=[Sizes(), Remember(history, loaded, bound, targets, disk)])
     explained = explain_plan(loaded, bound, targets, evaluator, history)
+    failure = None
     if run:
-        result = evaluator.run(loaded, bound, targets)
-        explained = with_results(explained, result.records, said)
-        history.remember(loaded.name, identities(loaded, bound, targets))
+        try:
+            records = evaluator.run(loaded, bound, targets).records
+        except RunFailed as error:
+            failure, records = error, error.records
+        explained = with_results(explained, records, said)
     if as_json:
         print(json.dumps([entry.as_json() for entry in explained], indent=1))
     else:
         print_explained(explained)
+    if failure is not None:
+        raise failure

@@ -42,6 +42,9 @@ def run(
     guard: Annotated[str, typer.Option(help="What to do about NaN and infinity: off, warn or error.")] = "error",
     cache: Cache = None,
     trace: Annotated[Path | None, typer.Option(metavar="run.json", help="Write what happened at every node.")] = None,
+    peaks: Annotated[
+        bool, typer.Option("--peaks", help="Measure each node's peak of memory for --trace: one thread, slower.")
+    ] = False,
     times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
 ) -> None:
     """Run a graph: [bold]graphface run relight -i photo=portrait.jpg -o relit.png[/bold]"""
@@ -49,7 +52,8 @@ def run(
 
     from graphface.errors import UsageError
     from graphface.evaluate import Evaluator
-    from graphface.explain import History, history_folder, identities
+    from graphface.history import History, Remember
+    from graphface.observe import Observer
     from graphface.outputs import check_folder, write_output
     from graphface.provenance import provenance
     from graphface.terminal import ProgressBar, print_times, print_warnings
@@ -65,21 +69,21 @@ def run(
     targets = loaded.targets(files)
     bound = loaded.bind(given)
     said: list[str] = []
-    tracer = Trace()
+    tracer = Trace(peaks=peaks)
+    disk = open_cache(cache, said)
     with ProgressBar() as bar:
-        evaluator = Evaluator(
-            disk=open_cache(cache, said),
-            threads=threads or os.cpu_count() or 1,
-            guard=guard,  # type: ignore[arg-type]
-            observers=[bar] if trace is None else [bar, tracer],
-        )
+        observers: list[Observer] = [bar]
+        if trace is not None:
+            observers.append(tracer)
+        if disk is not None:
+            observers.append(Remember(History.beside(cache), loaded, bound, targets, disk))
+        cores = 1 if peaks else threads or os.cpu_count() or 1
+        evaluator = Evaluator(disk=disk, threads=cores, guard=guard, observers=observers)  # type: ignore[arg-type]
         try:
             result = evaluator.run(loaded, bound, targets)
         finally:
             if trace is not None:
                 tracer.write(trace, loaded, bound)
-    if cache is not None:
-        History(history_folder(cache)).remember(loaded.name, identities(loaded, bound, targets))
     for name, path in files.items():
         write_output(result[name], loaded.type_of(targets[name]), path, text=provenance(loaded))
     print_warnings([*result.warnings, *said])
