@@ -27,13 +27,13 @@ def graph_schema(registry: Registry) -> dict[str, Any]:
         "additionalProperties": False,
         "properties": {
             "graphface": {"const": 1, "description": "Version of the format."},
-            "name": {"type": "string"},
-            "doc": {"type": "string"},
-            "extends": {"type": "string", "pattern": _GRAPH_FILE, "description": "Graph file to start from."},
+            "name": {"type": ["string", "null"]},
+            "doc": {"type": ["string", "null"]},
+            "extends": {"type": ["string", "null"], "pattern": _GRAPH_FILE, "description": "Graph file to start from."},
             "inputs": _named({"$ref": "#/$defs/input"}),
-            "nodes": _named({"anyOf": [{"$ref": "#/$defs/node"}, {"type": "null"}]}),
+            "nodes": _named({"$ref": "#/$defs/node"}),
             "outputs": _named({"$ref": "#/$defs/reference"}),
-            "variants": _named(_named({"anyOf": [{"$ref": "#/$defs/node"}, {"type": "null"}]})),
+            "variants": _named(_named({"$ref": "#/$defs/node"})),
             "profiles": _named(_named({"type": "object", "description": "Parameters to set."})),
         },
         "$defs": {
@@ -56,15 +56,16 @@ def graph_schema(registry: Registry) -> dict[str, Any]:
 
 
 def _node_schema(operators: Iterable[Operator]) -> dict[str, Any]:
+    """One node; null removes it."""
     known = list(operators)
     names = [{"const": op.name, "description": op.doc.partition("\n")[0]} for op in known]
     return {
-        "type": "object",
+        "type": ["object", "null"],
         "additionalProperties": False,
         "properties": {
             "use": {"anyOf": [*names, {"type": "string", "pattern": _GRAPH_FILE}]},
-            "in": {"type": "object"},
-            "with": {"type": "object"},
+            "in": {"type": ["object", "null"]},
+            "with": {"type": ["object", "null"]},
             "doc": {"type": "string"},
         },
         "allOf": [_operator_rule(op) for op in known],
@@ -73,20 +74,34 @@ def _node_schema(operators: Iterable[Operator]) -> dict[str, Any]:
 
 def _operator_rule(operator: Operator) -> dict[str, Any]:
     """If `use` names this operator, then its ports and parameters are these."""
-    parameters = operator.parameters.model_json_schema(ref_template="#/$defs/{model}")
+    parameters = operator.parameters.model_json_schema(ref_template="#/$defs/{model}", schema_generator=_lenient())
     wire = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}, {"type": "null"}]}
     ports = {
         port.name: {**wire, "description": f"{port.type}{' (lazy)' if port.lazy else ''}"}
         for port in operator.inputs.values()
     }
     rule: dict[str, Any] = {
-        "in": {"type": "object", "additionalProperties": False, "properties": ports},
-        "with": {"type": "object", "additionalProperties": False, "properties": _inlined(parameters)},
+        "in": {"type": ["object", "null"], "additionalProperties": False, "properties": ports},
+        "with": {"type": ["object", "null"], "additionalProperties": False, "properties": _inlined(parameters)},
     }
     return {
         "if": {"required": ["use"], "properties": {"use": {"const": operator.name}}},
         "then": {"description": operator.doc, "properties": rule},
     }
+
+
+def _lenient() -> type[Any]:
+    """Pydantic's generator, letting pass a parameter that no JSON Schema describes (a callable, say)."""
+    from pydantic.json_schema import GenerateJsonSchema, JsonSchemaWarningKind
+
+    class Lenient(GenerateJsonSchema):
+        def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> dict[str, Any]:
+            return {}
+
+        def emit_warning(self, kind: JsonSchemaWarningKind, detail: str) -> None:
+            """A default that JSON cannot hold is left out; nobody needs to hear of it."""
+
+    return Lenient
 
 
 def _inlined(schema: dict[str, Any]) -> dict[str, Any]:
@@ -109,6 +124,8 @@ def _inlined(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def _named(values: dict[str, Any]) -> dict[str, Any]:
-    """A mapping from names to `values`; an empty one may be written as nothing."""
-    mapping = {"type": "object", "propertyNames": {"pattern": _NAME}, "additionalProperties": values}
-    return {"anyOf": [mapping, {"type": "null"}]}
+    """A mapping from names to `values`; an empty one may be written as nothing.
+
+    Not an `anyOf` with null: where none of its options fits, checkers mark the whole section instead of the mistake.
+    """
+    return {"type": ["object", "null"], "propertyNames": {"pattern": _NAME}, "additionalProperties": values}
