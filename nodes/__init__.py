@@ -14,7 +14,8 @@ pack = Pack(
     operators={
         "image": "graphface.nodes.image",
         "landmarks": "graphface.nodes.landmarks.facemesh graphface.nodes.landmarks.given",
-        "geometry": "graphface.nodes.morphable.facemesh",
+        "geometry": "graphface.nodes.morphable.facemesh graphface.nodes.morphable.morphable",
+        "person": "graphface.nodes.morphable.morphable",
         "surface": "graphface.nodes.render.surface",
         "masks": "graphface.nodes.masks.face",
         "intrinsic": "graphface.nodes.intrinsic.intensity",
@@ -32,6 +33,7 @@ pack = Pack(
                 "Depth",
                 "Detail",
                 "DetailMap",
+                "FitRecord",
                 "Gain",
                 "HeadMasks",
                 "Image",
@@ -47,6 +49,7 @@ pack = Pack(
                 "Surface",
             )
         },
+        "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
         "Scene": "graphface.nodes.render.scene:Scene",
     },
 )

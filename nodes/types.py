@@ -226,11 +226,36 @@ class Landmarks:
 
 
 @dataclass(frozen=True)
+class FitRecord:
+    """How a face model was fitted: what it found, and how well.
+
+    `identity` and `expression` float32 (K,) in standard deviations; `rotation` float64 (3, 3), face to camera frame;
+    `scale` pixels for one outer-eye-corner distance of the mean face; `distance` of the camera in that unit, 0 for the
+    weak perspective. `errors` float32 (n,) pixels from each landmark to its vertex, NaN-free: 0 where there is no
+    landmark; `residual` their root mean square, robustly weighted; `costs` after each accepted step; `condition` of the
+    last step's equations; `converged` where the cost came to rest.
+    """
+
+    model: str
+    identity: FloatArray
+    expression: FloatArray
+    rotation: NDArray[np.float64]
+    scale: float
+    distance: float
+    residual: float
+    errors: FloatArray
+    costs: FloatArray
+    condition: float
+    converged: bool
+
+
+@dataclass(frozen=True)
 class Mesh:
     """A triangulated face in the camera frame.
 
     `vertices` float32 (V, 3); `triangles` int32 (T, 3), counter-clockwise seen from outside; `normals` float32 (V, 3)
-    unit; `camera` takes vertices to pixels; `interocular` in pixels.
+    unit; `camera` takes vertices to pixels; `interocular` in pixels. `uv` float32 (V, 2) in [0, 1], v up: where the
+    model's texture has each vertex. `fit` where a model was fitted.
     """
 
     vertices: FloatArray
@@ -238,6 +263,8 @@ class Mesh:
     normals: FloatArray
     camera: Camera
     interocular: float
+    uv: FloatArray | None = None
+    fit: FitRecord | None = None
 
 
 @dataclass(frozen=True)

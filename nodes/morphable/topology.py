@@ -17,6 +17,7 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +63,14 @@ def learn_topology(shapes: NDArray[np.float64]) -> Topology:
     mean /= np.linalg.norm(mean[EYE_CORNERS[0]] - mean[EYE_CORNERS[1]])
     triangles = _triangulate(mean)
     return Topology(triangles.astype(np.int32), mirror.astype(np.int32), mean.astype(np.float32))
+
+
+def cylinder(shape: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+    """Texture coordinates (V, 2) in [0, 1] of a shape in this frame: unrolled about the axis inside the head, v up."""
+    unrolled = _unrolled(np.asarray(shape, np.float64))
+    low, high = unrolled.min(axis=0), unrolled.max(axis=0)
+    coordinates: NDArray[np.float64] = (unrolled - low) / np.maximum(high - low, 1e-9)
+    return coordinates
 
 
 def save_topology(topology: Topology, path: Path) -> None:
@@ -119,8 +128,7 @@ def _triangulate(mean: NDArray[np.float64]) -> NDArray[np.intp]:
     """Delaunay triangles (T, 3) of the unrolled mean, counter-clockwise, without the slivers along its outline."""
     from scipy.spatial import Delaunay
 
-    angle = np.arctan2(mean[:, 0], mean[:, 2] - _AXIS_DEPTH)
-    unrolled = np.stack([angle, mean[:, 1]], axis=1)
+    unrolled = _unrolled(mean)
     triangles: NDArray[np.intp] = Delaunay(unrolled).simplices
     a, b = (unrolled[triangles[:, k]] - unrolled[triangles[:, 0]] for k in (1, 2))
     clockwise = a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0]
@@ -130,6 +138,11 @@ def _triangulate(mean: NDArray[np.float64]) -> NDArray[np.intp]:
         if not sliver.any():
             return triangles
         triangles = triangles[~sliver]
+
+
+def _unrolled(shape: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Angle about the vertical axis, and height: (V, 2)."""
+    return np.stack([np.arctan2(shape[:, 0], shape[:, 2] - _AXIS_DEPTH), shape[:, 1]], axis=1)
 
 
 def _on_boundary(triangles: NDArray[np.intp]) -> NDArray[np.bool_]:

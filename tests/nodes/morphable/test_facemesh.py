@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphface import UsageError
-from graphface.nodes.morphable.facemesh import facemesh, vertex_normals
+from graphface.nodes.morphable.facemesh import facemesh
+from graphface.nodes.morphable.normals import vertex_normals
 from graphface.nodes.morphable.topology import facemesh_topology, learn_topology
 from graphface.nodes.types import Landmarks
 

@@ -1,0 +1,101 @@
+"""`graphface models`: the 3-D face models at hand, bringing in others, learning one from photographs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from graphface.nodes.morphable.model import MorphableModel
+
+app = typer.Typer(help="List, import, describe or learn 3-D face models.", no_args_is_help=True)
+
+
+@app.callback()
+def models() -> None:
+    """List, import, describe or learn 3-D face models."""
+
+
+@app.command("list")
+def list_models() -> None:
+    """Show the built-in model and those that were imported."""
+    from graphface.nodes.morphable.library import library
+    from graphface.terminal import print_table
+
+    rows = []
+    for name, path in library().items():
+        model = _loaded(str(path))
+        sizes = (f"{len(model.mean)}", f"{len(model.identity)}", f"{len(model.expression)}")
+        rows.append((name, *sizes, ", ".join(model.landmarks), str(path)))
+    print_table(("model", ">vertices", ">identity", ">expression", "landmarks", "file"), rows)
+
+
+@app.command()
+def info(model: Annotated[str, typer.Argument(help="A model's name, or a file.")] = "builtin") -> None:
+    """Describe a model: its size, its prior, what it was made from, what it cannot do."""
+    found = _loaded(model)
+    print(f"{found.name}: {len(found.mean)} vertices, {len(found.triangles)} triangles")
+    print(f"  identity    {len(found.identity)}")
+    print(f"  expression  {len(found.expression)}")
+    for scheme, vertices in found.landmarks.items():
+        print(f"  landmarks   {scheme}, {(vertices >= 0).sum()} of {len(vertices)}")
+    prior = found.prior
+    print(f"  prior       {'independent normal' if prior is None else f'mixture of {len(prior.weights)} Gaussians'}")
+    print(f"  texture     {'yes' if found.uv is not None else 'no'}")
+    if found.part_names:
+        print(f"  parts       {', '.join(found.part_names)}")
+    for key, value in found.card.items():
+        print(f"  {key:<11} {value}")
+
+
+@app.command("import")
+def import_model(
+    source: Annotated[Path, typer.Argument(help="The model's file or folder, as its makers distribute it.")],
+    kind: Annotated[str, typer.Option(help="ict, surrey, flame or basel; guessed by default.")] = "",
+    name: Annotated[str, typer.Option(help="What to call it; the kind by default.")] = "",
+    out: Annotated[Path | None, typer.Option(help="File to write; the user's model folder by default.")] = None,
+) -> None:
+    """Bring a model of another format into graphface's."""
+    from graphface.nodes.morphable.library import model_folder
+    from graphface.nodes.morphable.readers import guess_kind, read_model
+    from graphface.nodes.morphable.storage import save_model
+
+    kind = kind or guess_kind(source)
+    model = read_model(source, kind)
+    path = out if out is not None else model_folder() / f"{name or kind}.safetensors"
+    save_model(model, path)
+    print(f"{path}: {len(model.mean)} vertices, {len(model.identity)} identity, {len(model.expression)} expression")
+
+
+@app.command()
+def learn(
+    folder: Annotated[Path, typer.Argument(help="Photographs, one of each person.")],
+    people: Annotated[
+        Path | None, typer.Option(help="Photographs, several of each person: PERSON_anything.jpg; teach expression.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="File to write.")] = Path("learned.safetensors"),
+    name: Annotated[str, typer.Option(help="What to call the model.")] = "learned",
+    identity: Annotated[int, typer.Option(min=1, help="Identity components.")] = 15,
+    expression: Annotated[int, typer.Option(min=0, help="Expression components.")] = 10,
+    card: Annotated[Path | None, typer.Option(help="JSON with further words for the card.")] = None,
+) -> None:
+    """Learn a model from photographs: the built-in one was made so (see its card)."""
+    from graphface.nodes.commands.learning import learn_from_photos
+    from graphface.nodes.morphable.storage import save_model
+
+    expression = expression if people is not None else 0
+    model, lesson = learn_from_photos(folder, people, name, identity=identity, expression=expression, words=card)
+    save_model(model, out, half=True)
+    print(
+        f"{out}: from {lesson.faces} portraits and {lesson.photos_of_people} photographs of {lesson.people} people; "
+        f"leaves {lesson.left:.2f} % of the eye distance, {lesson.left_unseen:.2f} % on unseen faces; "
+        f"prior of {lesson.components} Gaussians"
+    )
+
+
+def _loaded(model: str) -> MorphableModel:
+    from graphface.nodes.morphable.library import named_model
+
+    return named_model(model)

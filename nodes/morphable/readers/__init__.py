@@ -1,0 +1,1 @@
+"""Face models as their makers distribute them, read into one container."""

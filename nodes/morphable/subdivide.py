@@ -1,0 +1,74 @@
+"""Smooth a triangle mesh by Loop's subdivision, as one linear map on vertices.
+
+Loop, Smooth Subdivision Surfaces Based on Triangles, 1987, with Warren's weights; on the boundary the cubic B-spline.
+Being linear, the map refines a model's mean and every direction alike.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def interpolating_loop(
+    triangles: NDArray[np.int32], vertices: int, levels: int = 1
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """The map (W, V) from V vertices to the W of the refined mesh, and the refined triangles.
+
+    Loop's scheme moves the vertices that were there. Here they are pushed out beforehand so that it moves them back:
+    the first V rows are the identity, and landmarks stay where they were.
+    """
+    matrix: Any = None
+    for _ in range(levels):
+        step, triangles = loop_step(triangles, vertices if matrix is None else matrix.shape[0])
+        matrix = step if matrix is None else step @ matrix
+    if matrix is None:
+        return np.eye(vertices), triangles
+    dense = matrix.toarray()
+    return dense @ np.linalg.inv(dense[:vertices]), triangles
+
+
+def loop_step(triangles: NDArray[np.int32], vertices: int) -> tuple[Any, NDArray[np.int32]]:
+    """One level: the sparse map (V + E, V) and the triangles (4T, 3); the old vertices keep their numbers."""
+    from scipy.sparse import csr_array
+
+    corners = triangles.astype(np.int64)
+    sides = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    opposite = np.concatenate([corners[:, 2], corners[:, 0], corners[:, 1]])
+    edges, edge_of_side, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
+    edge_of_side = edge_of_side.reshape(-1)
+    inner = uses == 2
+
+    rows, columns, weights = [], [], []
+
+    def add(row: NDArray[np.int64], column: NDArray[np.int64], weight: NDArray[np.float64] | float) -> None:
+        rows.append(row)
+        columns.append(column)
+        weights.append(np.broadcast_to(np.asarray(weight, np.float64), row.shape))
+
+    middle = vertices + np.arange(len(edges))
+    for k in range(2):
+        add(middle, edges[:, k], np.where(inner, 3 / 8, 1 / 2))
+    of_inner = inner[edge_of_side]
+    add(middle[edge_of_side[of_inner]], opposite[of_inner], 1 / 8)
+
+    on_rim = np.zeros(vertices, bool)
+    on_rim[edges[~inner]] = True
+    neighbours = np.bincount(edges.ravel(), minlength=vertices)
+    share = np.where(neighbours == 3, 3 / 16, 3 / (8 * np.maximum(neighbours, 1)))  # Warren's
+    every = np.arange(vertices)
+    lonely = neighbours == 0
+    add(every, every, np.where(on_rim, 3 / 4, np.where(lonely, 1.0, 1 - neighbours * share)))
+    for k in range(2):
+        a, b = edges[:, k], edges[:, 1 - k]
+        # A vertex within takes all its neighbours, one on the rim its two along the rim.
+        add(a, b, np.where(on_rim[a], np.where(inner, 0.0, 1 / 8), share[a]))
+
+    entries = (np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns)))
+    matrix = csr_array(entries, shape=(vertices + len(edges), vertices))
+    ab, bc, ca = (middle[e] for e in edge_of_side.reshape(3, -1))
+    a, b, c = corners.T
+    refined = np.stack([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]])  # 4 x 3 x T
+    return matrix, refined.transpose(0, 2, 1).reshape(-1, 3).astype(np.int32)
