@@ -8,6 +8,7 @@ write to them, a value that shares their memory is never memoized (`Bound.borrow
 from __future__ import annotations
 
 import copy
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
@@ -108,7 +109,7 @@ def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path]
 
 
 def _bind_file(entry: GraphInput, path: Path, reader: Reader, stat_shortcut: bool) -> Bound:
-    if path.is_dir():
+    if os.path.isdir(path):
         raise UnreadableFile(path, f"is a folder; input {entry.name!r} takes a file ({entry.type})")
     try:
         content = digest_file(path, stat_shortcut=stat_shortcut)
@@ -170,9 +171,9 @@ def _from_text(value: Any, declared: PortType) -> Any:
 def _given_file(value: str | Path, roots: Sequence[Path]) -> Path:
     """The path given; where nothing is there, a file of that name beside the graph or among the shipped ones."""
     path = Path(value)
-    if path.exists() or path.is_absolute():
+    if path.is_absolute() or os.path.exists(path):
         return path
-    return next((root / path for root in roots if (root / path).is_file()), path)
+    return next((root / path for root in roots if os.path.isfile(root / path)), path)
 
 
 def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:

@@ -56,14 +56,14 @@ def check_folder(path: Path) -> None:
         UnwritableFile: the folder is missing or read-only, or the path is a folder.
     """
     folder = path.parent
-    if path.is_dir():
-        raise UnwritableFile(path, "is a folder; name a file in it")
-    if not folder.is_dir():
-        raise UnwritableFile(path, f"there is no folder {str(folder)!r}")
     try:
+        if path.is_dir():
+            raise UnwritableFile(path, "is a folder; name a file in it")
+        if not folder.is_dir():
+            raise UnwritableFile(path, f"there is no folder {str(folder)!r}")
         handle, name = tempfile.mkstemp(prefix=".graphface-", dir=folder)
     except OSError as error:
-        raise UnwritableFile(path, f"cannot write into the folder: {error.strerror}") from None
+        raise UnwritableFile(path, f"cannot be written: {error.strerror}") from None
     os.close(handle)
     os.unlink(name)
 

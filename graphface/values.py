@@ -106,7 +106,7 @@ class PortType:
 
     def __str__(self) -> str:
         names = [_atom_name(a) for a in self.alternatives]
-        return " | ".join(names + ["None"] * self.optional)
+        return " | ".join(names + ["None"] * (self.optional and object not in self.alternatives))
 
     def accepts(self, source: PortType) -> bool:
         """Whether every value of `source` is a value of this type."""

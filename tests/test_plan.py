@@ -115,7 +115,8 @@ class TestAgreement:
 class TestFates:
     NODES = (
         "  a: {use: toy.number}\n  b: {use: toy.add, in: {a: a}}\n  c: {use: toy.slow, in: {a: a}}\n"
-        "  d: {use: toy.gate, in: {a: b, extra: c}, with: {open: false}}\n  e: {use: toy.add, in: {a: b}, with: {plus: 9}}"
+        "  d: {use: toy.gate, in: {a: b, extra: c}, with: {open: false}}\n"
+        "  e: {use: toy.add, in: {a: b}, with: {plus: 9}}"
     )
 
     def test_reasons(self, registry: Registry) -> None:

@@ -118,7 +118,10 @@ class TestWires:
 
     def test_upstream(self, loaded: Load) -> None:
         """A change far above changes every key below, and none beside."""
-        chain = "  n: {use: toy.number, with: {value: %d}}\n  m: {use: toy.add, in: {a: n}}\n  x: {use: toy.add, in: {a: m}}\n"
+        chain = (
+            "  n: {use: toy.number, with: {value: %d}}\n  m: {use: toy.add, in: {a: n}}\n"
+            "  x: {use: toy.add, in: {a: m}}\n"
+        )
         beside = "  y: {use: toy.grid}"
         one, other = loaded(chain % 1 + beside), loaded(chain % 2 + beside)
         assert key(one) != key(other)

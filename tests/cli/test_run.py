@@ -167,7 +167,7 @@ class TestFailed:
         folder.mkdir(mode=0o500)
         answer = run("-o", folder / "a.npy")
         assert answer.code == 1
-        assert "cannot write" in answer.err
+        assert "cannot be written" in answer.err
 
     def test_unwritable_type(self, run: Run, tmp_path: Path) -> None:
         """A value that cannot be written as asked is told, and no empty file stays."""

@@ -1,0 +1,86 @@
+"""A result file appears whole or not at all."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from graphface.errors import UnwritableFile
+from graphface.outputs import beside, check_folder, write_output
+from graphface.values import ANY, PortType
+
+
+@dataclass(frozen=True)
+class Two:
+    left: np.ndarray
+    right: np.ndarray
+
+
+class Stubborn:
+    def to_file(self, path: Path) -> None:
+        raise PermissionError(13, "Permission denied")
+
+
+class TestWriting:
+    def test_npy(self, tmp_path: Path) -> None:
+        """.npy holds the array as it is."""
+        value = np.arange(6, dtype=np.int16).reshape(2, 3)
+        write_output(value, ANY, tmp_path / "a.npy")
+        np.testing.assert_array_equal(np.load(tmp_path / "a.npy", allow_pickle=False), value)
+
+    def test_npz(self, tmp_path: Path) -> None:
+        """.npz holds every array of a value by its path."""
+        write_output(Two(np.zeros(2), np.ones(3)), ANY, tmp_path / "a.npz")
+        with np.load(tmp_path / "a.npz") as stored:
+            assert {name: stored[name].shape for name in stored} == {"left": (2,), "right": (3,)}
+
+    def test_mode(self, tmp_path: Path) -> None:
+        """The file has the mode that the user's umask asks for, not that of a temporary file."""
+        (tmp_path / "plain").touch()
+        write_output(np.zeros(1), ANY, tmp_path / "a.npy")
+        assert (tmp_path / "a.npy").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+    @pytest.mark.parametrize(("value", "name"), [(3.0, "a.npz"), (3.0, "a.png"), (Stubborn(), "a.txt"), ("x", "a.npy")])
+    def test_unwritable(self, tmp_path: Path, value: object, name: str) -> None:
+        """A value that cannot be written as asked is an error that names the file."""
+        with pytest.raises(UnwritableFile) as caught:
+            write_output(value, PortType((type(value),)), tmp_path / name)
+        assert caught.value.path == tmp_path / name
+        assert list(tmp_path.iterdir()) == []
+
+    def test_missing_folder(self, tmp_path: Path) -> None:
+        """So is a folder that is not there."""
+        with pytest.raises(UnwritableFile):
+            write_output(np.zeros(1), ANY, tmp_path / "none" / "a.npy")
+
+
+class TestBeside:
+    def test_success(self, tmp_path: Path) -> None:
+        """What was written takes the place of the file."""
+        with beside(tmp_path / "a.txt") as path:
+            path.write_text("new")
+        assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+
+    @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
+    def test_failure(self, tmp_path: Path, error: type[BaseException]) -> None:
+        """Where writing fails or is interrupted, the old file stays and nothing else."""
+        (tmp_path / "a.txt").write_text("old")
+        with pytest.raises(error), beside(tmp_path / "a.txt") as path:  # noqa: PT012 - the block is what fails
+            path.write_text("half")
+            raise error
+        assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+        assert (tmp_path / "a.txt").read_text() == "old"
+
+
+class TestCheckFolder:
+    def test_fine(self, tmp_path: Path) -> None:
+        """Nothing is left behind."""
+        check_folder(tmp_path / "a.png")
+        assert list(tmp_path.iterdir()) == []
+
+    @pytest.mark.parametrize("name", ["", "none/a.png", "x" * 300 + ".png", "x" * 300 + "/a.png"])
+    def test_refused(self, tmp_path: Path, name: str) -> None:
+        """A folder, a missing folder and a name too long are told before anything runs."""
+        with pytest.raises(UnwritableFile):
+            check_folder(tmp_path / name)
