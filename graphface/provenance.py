@@ -29,10 +29,16 @@ def read_provenance(path: Path, registry: Registry) -> str:
     Raises:
         UnreadableFile: the file holds none, or cannot be read.
     """
+    why = ""
     for kind in registry.type_classes():
         reader = getattr(kind, "text_in_file", None)
-        if reader is not None:
+        if reader is None:
+            continue
+        try:
             text = reader(path).get(KEY)
-            if text:
-                return str(text)
-    raise UnreadableFile(path, "is neither a graph file nor a result that carries its graph")
+        except UnreadableFile as error:
+            why = f" ({error.reason})"
+            continue
+        if text:
+            return str(text)
+    raise UnreadableFile(path, f"is neither a graph file (.yaml, .yml) nor a result that carries its graph{why}")

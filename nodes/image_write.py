@@ -83,8 +83,11 @@ def write_image(image: Image, path: Path, *, text: Mapping[str, str] | None = No
     _write(path, name, _Sheet(_quantized(pixels, deep), icc, image.file.exif, text))
 
 
-def write_picture(pixels: NDArray[np.uint8], path: Path) -> None:
+def write_picture(pixels: NDArray[np.uint8], path: Path, *, text: Mapping[str, str] | None = None) -> None:
     """Write an array uint8, H x W (grey), H x W x 3 (RGB) or H x W x 4 (RGB and alpha), as it is.
+
+    Args:
+        text: words kept inside the file; `read_text` finds them.
 
     Raises:
         UnwritableFile: see `write_image`.
@@ -94,7 +97,7 @@ def write_picture(pixels: NDArray[np.uint8], path: Path) -> None:
     if samples.dtype != np.uint8 or samples.ndim != 3 or samples.shape[2] not in (1, 3, 4):
         raise ValueError(f"expected uint8 of H x W, H x W x 3 or H x W x 4, got {pixels.dtype} {pixels.shape}")
     name = _format_of(path)
-    _write(path, name, _Sheet(samples[..., :3] if name == "JPEG" else samples))
+    _write(path, name, _Sheet(samples[..., :3] if name == "JPEG" else samples, text=text))
 
 
 def replace_file(path: Path, write: Callable[[Path], None]) -> None:
