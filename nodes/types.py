@@ -25,10 +25,10 @@ FloatArray = NDArray[np.float32]
 Encoding = Literal["srgb", "linear"]
 
 
-def _write_picture(pixels: Any, path: Path) -> None:
+def _write_picture(pixels: Any, path: Path, text: Mapping[str, str] | None) -> None:
     from graphface.nodes.image import write_picture
 
-    write_picture(pixels, path)
+    write_picture(pixels, path, text=text)
 
 
 def _mask_from_file(path: Path) -> FloatArray:
@@ -77,8 +77,8 @@ def _picture_depth(depth: FloatArray) -> NDArray[np.uint8]:
 
 
 def _map(name: str, shape: str, doc: str, picture: Any, **more: Any) -> ArrayType:
-    def to_file(value: Any, path: Path) -> None:
-        _write_picture(picture(value), path)
+    def to_file(value: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
+        _write_picture(picture(value), path, text)
 
     return ArrayType(name, shape, doc=doc, picture=picture, to_file=to_file, **more)
 
