@@ -6,6 +6,7 @@
 from graphface import Pack
 
 _TYPES = "graphface.nodes.types"
+_DETAIL = "graphface.nodes.detail"
 
 pack = Pack(
     name="graphface",
@@ -20,8 +21,9 @@ pack = Pack(
         "masks": "graphface.nodes.masks.face",
         "intrinsic": "graphface.nodes.intrinsic.intensity",
         "sh": "graphface.nodes.sh",
-        "detail": "graphface.nodes.detail",
-        "render": "graphface.nodes.render.shade graphface.nodes.render.spread",
+        "detail": " ".join(f"{_DETAIL}.{method}" for method in ("additive", "multiplicative", "none", "split")),
+        "detail.edit": " ".join(f"{_DETAIL}.{edit}" for edit in ("bands", "wrinkles", "shine")),
+        "render": "graphface.nodes.render.shade graphface.nodes.render.shadows graphface.nodes.render.spread",
         "blend": "graphface.nodes.blend",
     },
     types={
@@ -51,5 +53,6 @@ pack = Pack(
         },
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
         "Scene": "graphface.nodes.render.scene:Scene",
+        "Shadows": "graphface.nodes.render.visibility:Shadows",
     },
 )

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.detail import rendering
+from graphface.nodes.detail.rendering import applied, rendering
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
 
 
@@ -33,10 +33,7 @@ def recombine(
     Returns:
         An image in the photo's encoding, within [0, 1] (or the photo's own range where that is wider).
     """
-    rendered = rendering(albedo, shading)
-    if detail.gain is not None:
-        rendered = rendered * detail.gain
-    change = rendered + detail.offset - photo.pixels
+    change = applied(detail, rendering(albedo, shading)) - photo.pixels
     return photo.with_pixels(photo.pixels + _bend(change, photo.pixels, shoulder))
 
 

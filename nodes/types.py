@@ -320,12 +320,16 @@ class Intrinsic:
 class DetailMap:
     """What the photo has and rendering lacks: photo = gain * rendering + offset.
 
-    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is
-    all `gain`, a method that splits by frequency has both. Whoever recombines need not know which method it was.
+    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is all
+    `gain`. Whoever recombines (`graphface.nodes.detail.applied`) needs not know which method it was.
+
+    Where there is a `pivot`, the gain holds up to that rendering and light beyond it adds as it is:
+    photo = gain * min(rendering, pivot) + max(rendering - pivot, 0) + offset.
     """
 
     offset: Detail
     gain: Gain | None = None
+    pivot: Albedo | None = None
 
     @staticmethod
     def picture(detail: DetailMap) -> NDArray[np.uint8]:

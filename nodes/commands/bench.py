@@ -21,7 +21,7 @@ def bench() -> None:
 def relight(
     out: Annotated[Path, typer.Argument(help="Folder for the results: HEAD/LIGHT.png, as score.py reads them.")],
     data: Data = Path("../shared/data"),
-    method: Annotated[str, typer.Option(help="detail: additive, multiplicative or none.")] = "additive",
+    method: Annotated[str, typer.Option(help="detail: additive, multiplicative, split or none.")] = "additive",
     encoding: Annotated[str, typer.Option(help="Values that albedo and shading live in: srgb or linear.")] = "srgb",
 ) -> None:
     """Relight the path-traced heads by their known lights and compare with the truth."""
@@ -29,8 +29,8 @@ def relight(
     from graphface.nodes.commands.truth import relight_truth
     from graphface.terminal import print_table
 
-    if method not in ("additive", "multiplicative", "none"):
-        raise UsageError(f"--method {method!r}: expected additive, multiplicative or none")
+    if method not in ("additive", "multiplicative", "none", "split"):
+        raise UsageError(f"--method {method!r}: expected additive, multiplicative, split or none")
     if encoding not in ("srgb", "linear"):
         raise UsageError(f"--encoding {encoding!r}: expected srgb or linear")
     rows = [

@@ -25,14 +25,15 @@ from graphface.nodes.masks.face import face as face_mask
 from graphface.nodes.metrics import mean_angle, psnr, si_psnr
 from graphface.nodes.morphable.facemesh import facemesh as build_mesh
 from graphface.nodes.render.scene import DirectionalLight, Scene
-from graphface.nodes.render.shade import irradiance, shade
+from graphface.nodes.render.irradiance import irradiance
+from graphface.nodes.render.shade import shade
 from graphface.nodes.render.spread import spread
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import Encoding, Image
 
 LIGHTS = ("left45", "right45", "top", "left80_hard", "red_blue", "ambient")
 
-Method = Literal["additive", "multiplicative", "none"]
+Method = Literal["additive", "multiplicative", "none", "split"]
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from graphface import GraphfaceWarning
 from graphface.nodes import blend, detail
+from graphface.nodes.detail.bands import EDGES, decomposed, gaussian, guided
 from graphface.nodes.intrinsic.intensity import intensity
-from graphface.nodes.types import FileFormat, Image
+from graphface.nodes.types import FileFormat, Image, Landmarks
 
 PHOTOS = {
     "black": lambda rng: np.zeros((6, 5, 3)),
@@ -47,7 +49,7 @@ class TestIntensity:
 
 
 class TestDetail:
-    @pytest.mark.parametrize("method", [detail.additive, detail.multiplicative])
+    @pytest.mark.parametrize("method", [detail.additive, detail.multiplicative, detail.split])
     @pytest.mark.parametrize("colored", [False, True])
     def test_same_shading_returns_the_photo(self, photo, method, colored, rng):
         """Recombined under the light it was made with, the photo comes back within 1/255."""
@@ -72,6 +74,100 @@ class TestDetail:
         np.testing.assert_allclose(
             blend.recombine(photo, albedo, 2 * shading, ratio).pixels, 2 * photo.pixels, rtol=1e-3
         )
+
+
+class TestSplit:
+    """Around the light of the photo: below it a bounded ratio, above it a difference."""
+
+    @pytest.fixture
+    def case(self, rng):
+        photo = Image(rng.uniform(0.2, 0.5, (8, 9, 3)).astype(np.float32))
+        return photo, intensity(photo).albedo, rng.uniform(0.2, 0.5, (8, 9)).astype(np.float32)
+
+    def test_less_light_scales_the_pixel(self, case):
+        """Taking light away scales what is there, highlights included, like the ratio."""
+        photo, albedo, shading = case
+        split = detail.split(photo, albedo, shading, bound=20, floor=1e-4)
+        again = blend.recombine(photo, albedo, shading / 2, split, shoulder=0)
+        np.testing.assert_allclose(again.pixels, photo.pixels / 2, atol=0.01)
+
+    def test_more_light_adds(self, case):
+        """Adding light changes the pixel by the change of the rendering, like the paper's map."""
+        photo, albedo, shading = case
+        two = (method(photo, albedo, shading) for method in (detail.split, detail.additive))
+        brighter = [blend.recombine(photo, albedo, shading + 0.1, one).pixels for one in two]
+        np.testing.assert_allclose(*brighter, atol=1e-5)
+
+    def test_bound_of_one_is_additive(self, case):
+        """With no room for a gain the method is the paper's."""
+        np.testing.assert_allclose(detail.split(*case, bound=1).gain, 1, atol=1e-5)
+
+    @settings(max_examples=60, deadline=None)
+    @given(st.floats(0, 1, width=32), st.floats(0, 4, width=32), st.floats(1, 20, width=32))
+    def test_gain_is_bounded(self, value, shade, bound):
+        """Whatever the photo and the estimated shading, the gain is within its bound."""
+        photo = Image(np.full((2, 2, 3), value, np.float32))
+        albedo = np.ones((2, 2, 3), np.float32)
+        gain = detail.split(photo, albedo, np.full((2, 2), shade, np.float32), bound=bound).gain
+        assert gain.min() >= 1 / bound * (1 - 1e-4)
+        assert gain.max() <= bound * (1 + 1e-4)
+
+    def test_missing_landmarks_are_reported(self, case):
+        """A cut-off without landmarks has no unit; the guess is said."""
+        with pytest.warns(GraphfaceWarning, match="no landmarks"):
+            detail.split(*case, cutoff=0.1)
+
+
+class TestEdits:
+    """Edits of a finished map."""
+
+    @pytest.fixture
+    def landmarks(self):
+        points = np.zeros((468, 3), np.float32)
+        points[263, 0] = 100
+        return Landmarks(points, "facemesh468")
+
+    @pytest.fixture(params=[detail.additive, detail.split])
+    def made(self, request, rng):
+        photo = Image(rng.random((40, 50, 3)).astype(np.float32))
+        return request.param(photo, intensity(photo).albedo, np.full((40, 50), 0.5, np.float32))
+
+    @pytest.mark.parametrize("kernel", ["gaussian", "guided"])
+    def test_bands_add_up(self, made, landmarks, kernel):
+        """The bands and what is broader than all of them are the map."""
+        broad = made.offset - sum(decomposed(made.offset, landmarks, kernel))
+        smooth = guided if kernel == "guided" else gaussian
+        np.testing.assert_allclose(broad, smooth(made.offset, EDGES[-1] * 100), atol=1e-5)
+
+    def test_zero_removes_the_bands(self, made, landmarks):
+        """With every band at 0 only the broad part is left."""
+        bare = detail.bands(made, landmarks, pores=0, lines=0, folds=0)
+        np.testing.assert_allclose(bare.offset, gaussian(made.offset, EDGES[-1] * 100), atol=1e-5)
+
+    @pytest.mark.parametrize("edit", [detail.wrinkles, detail.shine])
+    def test_strength_one_changes_nothing(self, made, landmarks, edit):
+        """1 is the identity."""
+        assert edit(made, landmarks, strength=1) is made
+
+    def test_wrinkles_only_lift_dark_lines(self, made, landmarks):
+        """Smoothing never darkens a pixel."""
+        smoothed = detail.wrinkles(made, landmarks, strength=0)
+        assert (smoothed.offset >= made.offset - 1e-6).all()
+
+    def test_shine_only_dims_bright_patches(self, made, landmarks):
+        """Making the skin matt never brightens a pixel."""
+        matt = detail.shine(made, landmarks, strength=0)
+        assert (matt.offset <= made.offset + 1e-6).all()
+
+    @pytest.mark.parametrize("edit", [detail.wrinkles, detail.shine, detail.bands])
+    def test_outside_the_mask_nothing_changes(self, made, landmarks, edit):
+        """`where` limits the edit."""
+        where = np.zeros((40, 50), np.float32)
+        where[:, :25] = 1
+        parameter = {"pores": 0.0} if edit is detail.bands else {"strength": 0.0}
+        edited = edit(made, landmarks, where, **parameter)
+        np.testing.assert_array_equal(edited.offset[:, 25:], made.offset[:, 25:])
+        assert (edited.offset[:, :25] != made.offset[:, :25]).any() or made.gain is not None
 
 
 class TestRecombine:

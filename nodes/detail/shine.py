@@ -1,0 +1,38 @@
+"""Shine: the broad bright patches of the detail map, which Lambertian shading cannot make."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.detail.bands import edited_map, gaussian
+from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
+
+SIZE = 0.3
+"""Inter-ocular distances: highlights are patches smaller than this, brighter than what is around them."""
+
+
+@node("detail.edit.shine")
+def shine(
+    detail: DetailMap,
+    landmarks: Landmarks,
+    where: Mask | None = None,
+    *,
+    strength: Annotated[float, Field(ge=0, le=4)] = 0.3,
+) -> DetailMap:
+    """Scale what is brighter than its surroundings: 0 makes the skin matt, 2 makes it oily.
+
+    After the "shine" control of Boyadzhiev et al. 2015: positive, low and middle frequencies of the luminance. The
+    change is grey, as the highlight of a dielectric is.
+    """
+    unit = max(landmarks.interocular, 1e-3)
+
+    def edit(values: FloatArray) -> FloatArray:
+        grey = values.mean(axis=2, dtype=np.float32)
+        excess = gaussian(grey, 0.02 * unit) - gaussian(grey, SIZE * unit)
+        return values + np.float32(strength - 1) * np.maximum(excess, 0)[..., None]
+
+    return detail if strength == 1 else edited_map(detail, edit, where)
