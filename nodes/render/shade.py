@@ -8,24 +8,39 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from graphface import node
+from graphface import Lazy, Needs, node
 from graphface.nodes.colour import decode_srgb, encode_srgb
-from graphface.nodes.render.scene import HarmonicLight, Scene
-from graphface.nodes.sh import basis, has_surface
-from graphface.nodes.types import FloatArray, Image, Mask, Normals, Shading
+from graphface.nodes.render.irradiance import irradiance
+from graphface.nodes.render.places import lifted_pixels
+from graphface.nodes.render.scene import Scene
+from graphface.nodes.render.visibility import Shadows
+from graphface.nodes.sh import has_surface
+from graphface.nodes.types import FloatArray, Image, Mask, Mesh, Normals, Shading, Surface
 
 
-@node("render.shade")
+def _wanted(scene: Scene) -> Needs:
+    far = "no light of the scene is near, so places on the face do not matter"
+    return {
+        "shadows": bool(scene.casting) or "no light of the scene casts a shadow that the camera could see",
+        "mesh": scene.local or far,
+        "surface": scene.local or far,
+    }
+
+
+@node("render.shade", needs=_wanted)
 def shade(
     normals: Normals,
     scene: Scene,
     estimated: Shading,
     mask: Mask,
     photo: Image,
+    mesh: Lazy[Mesh] = None,
+    surface: Lazy[Surface] = None,
+    shadows: Lazy[Shadows] = None,
     *,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Shading:
-    """The face's shading under a scene: spherical harmonics, and Lambert's cosine for directional lights.
+    """The face's shading under a scene: spherical harmonics, and Lambert's cosine for the other lights.
 
     Light adds up linearly. Where the photo's values are sRGB-encoded the estimated shading is decoded, the sum formed,
     and the result encoded: for a power law encode(albedo * irradiance) = encode(albedo) * encode(irradiance), so
@@ -38,6 +53,8 @@ def shade(
             light.
         mask: the face, over which brightness is compared.
         photo: gives the encoding.
+        mesh, surface: where the pixels lie, for lights that stand near; without them all lie at the face's middle.
+        shadows: what of each light arrives; without them everything does.
         floor: least mean irradiance, in the photo's unit, that `keep_mean` scales up; a darker scene stays darker.
 
     Returns:
@@ -47,7 +64,11 @@ def shade(
     old = estimated[covered].astype(np.float32, copy=False)
     encoded = photo.encoding == "srgb"
     old = np.maximum(decode_srgb(old) if encoded else old, 0)
-    new = irradiance(scene, normals[covered])
+    points = None
+    if mesh is not None and surface is not None:
+        points = _points(covered, surface, mesh)
+    visible = {} if shadows is None else {n: shadows.of(n, mask.shape)[covered] for n in shadows.lights}
+    new = irradiance(scene, normals[covered], points, visible)
     if new.ndim < old.ndim:
         new = new[:, None]
     elif old.ndim < new.ndim:
@@ -68,30 +89,10 @@ def shade(
     return shading
 
 
-def irradiance(scene: Scene, normals: NDArray[np.float32]) -> FloatArray:
-    """What unit normals (n, 3) receive from a scene's lights: (n,), or (n, 3) where one is coloured. Never negative."""
-    channels = 3 if scene.colored else 1
-    ambient = scene.ambient if scene.colored else np.mean(scene.ambient)
-    total = np.zeros((len(normals), channels), np.float32) + np.asarray(ambient, np.float32)
-    for light in scene.lights:
-        if isinstance(light, HarmonicLight):
-            order = round(float(np.sqrt(len(light.values)))) - 1
-            received = np.maximum(basis(normals, order) @ light.values, 0)
-        else:
-            received = _wrapped_cosine(normals @ light.towards, np.sin(np.radians(light.size)))
-        total += received[:, None] * light.radiance[:channels]
-    return total if scene.colored else total[:, 0]
-
-
-def _wrapped_cosine(cosine: FloatArray, reach: float) -> FloatArray:
-    """Lambert's max(0, cos) for a light of some size: rounded where the surface hides a part of the light.
-
-    Within `reach` (the sine of the light's angle) of grazing, a parabola that meets 0 and the cosine without a kink. At
-    grazing it gives a quarter of `reach`; a uniform disc gives 2 / (3 pi) of it, nearly the same.
-    """
-    reach = max(float(reach), 1e-4)
-    partly = np.square(np.maximum(cosine + np.float32(reach), 0)) / np.float32(4 * reach)
-    return np.where(cosine < reach, partly, cosine)
+def _points(covered: NDArray[np.bool_], surface: Surface, mesh: Mesh) -> FloatArray:
+    """The camera-frame points of the covered pixels, inter-ocular distances: (n, 3)."""
+    v, u = np.nonzero(covered)
+    return lifted_pixels(u, v, surface.depth[v, u], mesh.camera) / np.float32(max(mesh.interocular, 1e-3))
 
 
 def _mean(irradiances: FloatArray, weights: FloatArray) -> float:

@@ -11,7 +11,7 @@ from graphface import UnreadableFile
 from graphface.assets import AssetUnavailable
 from graphface.nodes.commands.truth import LIGHTS, known_scene, relight_truth
 from graphface.nodes.image import read_image
-from graphface.nodes.render.shade import irradiance
+from graphface.nodes.render.irradiance import irradiance
 
 
 @pytest.fixture(scope="module")

@@ -43,7 +43,7 @@ class TestFromFile:
         [
             ("ambient: 0.1\nlihgts: []\n", 2, "lihgts: unknown key"),
             ("mode: replace\nlights:\n  - type: directional\n    intensity: -1\n", 4, "greater than or equal to 0"),
-            ("lights:\n  - {type: spot}\n", 2, "spot"),
+            ("lights:\n  - {type: laser}\n", 2, "laser"),
             ("lights:\n  - {type: directional, direction: [0, 0, 0]}\n", 2, "no length"),
             ("lights:\n  - {type: directional, azimuth: .nan}\n", 2, "finite"),
             ("lights:\n  - {type: sh, coefficients: [1, 2]}\n", 2, "got 2"),

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from graphface.nodes.colour import decode_srgb
 from graphface.nodes.render.scene import DirectionalLight, HarmonicLight, Scene
-from graphface.nodes.render.shade import irradiance, shade
+from graphface.nodes.render.irradiance import irradiance
+from graphface.nodes.render.shade import shade
 from graphface.nodes.types import Image
 
 
