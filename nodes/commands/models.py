@@ -55,6 +55,9 @@ def import_model(
     source: Annotated[Path, typer.Argument(help="The model's file or folder, as its makers distribute it.")],
     kind: Annotated[str, typer.Option(help="ict, surrey, flame or basel; guessed by default.")] = "",
     name: Annotated[str, typer.Option(help="What to call it; the kind by default.")] = "",
+    landmarks: Annotated[
+        Path | None, typer.Option(help='Lines "37 = 2088" (iBUG point = vertex), where the source has none.')
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="File to write; the user's model folder by default.")] = None,
 ) -> None:
     """Bring a model of another format into graphface's."""
@@ -63,7 +66,7 @@ def import_model(
     from graphface.nodes.morphable.storage import save_model
 
     kind = kind or guess_kind(source)
-    model = read_model(source, kind)
+    model = read_model(source, kind, landmarks)
     path = out if out is not None else model_folder() / f"{name or kind}.safetensors"
     save_model(model, path)
     print(f"{path}: {len(model.mean)} vertices, {len(model.identity)} identity, {len(model.expression)} expression")

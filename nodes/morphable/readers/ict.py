@@ -1,0 +1,167 @@
+"""ICT-FaceKit (Li et al., Learning Formation of Physically-Based Face Attributes, CVPR 2020; MIT licence).
+
+Either the makers' folder, with `generic_neutral_mesh.obj`, `identityNNN.obj`, one OBJ an expression and
+`vertex_indices.json`, or the same packed as NumPy arrays. Of the full head only the face is read (the first 6560
+polygons, "narrow face" in its README): ears, neck, mouth cavity, teeth and eyes are separate parts; eyes and mouth are
+closed flat.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface import UnreadableFile
+from graphface.nodes.morphable.model import MorphableModel
+from graphface.nodes.morphable.readers.assemble import assemble, with_facemesh_points
+
+_NARROW_FACE = 6560
+"""Polygons of the narrow face, first in the list (ICT-FaceKit's README)."""
+
+_LANDMARKS = (
+    1225, 1888, 1052, 367, 1719, 1722, 2199, 1447, 966, 3661, 4390, 3927, 3924, 2608, 3272, 4088, 3443, 268, 493,
+    1914, 2044, 1401, 3615, 4240, 4114, 2734, 2509, 978, 4527, 4942, 4857, 1140, 2075, 1147, 4269, 3360, 1507, 1542,
+    1537, 1528, 1518, 1511, 3742, 3751, 3756, 3721, 3725, 3732, 5708, 5695, 2081, 0, 4275, 6200, 6213, 6346, 6461,
+    5518, 5957, 5841, 5702, 5711, 5533, 6216, 6207, 6470, 5517, 5966,
+)  # fmt: skip
+"""Vertices of the 68 iBUG points (ICT-FaceKit's `vertex_indices.json`)."""
+
+_DEVIATION = 0.3
+"""Blendshape weights run from 0 to 1 and have no statistics; one standard deviation is taken to be this."""
+
+_CARD = {"license": "MIT", "source": "ICT-FaceKit, USC Institute for Creative Technologies"}
+
+
+@dataclass(frozen=True)
+class _Head:
+    mean: NDArray[np.float32]
+    triangles: NDArray[np.int64]
+    identity: NDArray[np.float32]
+    expression: NDArray[np.float32]
+    names: tuple[str, ...]
+    landmarks: NDArray[np.int32]
+    uv: NDArray[np.float32] | None
+
+
+def read_ict(source: Path, _landmarks: Path | None = None) -> MorphableModel:
+    """ICT-FaceKit from its folder or from a packed .npz.
+
+    Raises:
+        UnreadableFile: files are missing or do not agree.
+    """
+    head = _from_folder(source) if source.is_dir() else _from_archive(source)
+    model = assemble(
+        source,
+        "ict",
+        head.mean,
+        head.triangles,
+        head.identity,
+        head.expression * np.float32(_DEVIATION),
+        head.landmarks,
+        expression_names=head.names,
+        uv=head.uv,
+        card=_CARD,
+    )
+    return with_facemesh_points(model)
+
+
+def _from_archive(path: Path) -> _Head:
+    """The arrays `mean`, `identity`, `expression` (differences to the mean), `faces` or `triangles`, `landmarks68`."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            polygons = file["faces"][:_NARROW_FACE]
+            uv = file["uv"][file["uv_index_of_vertex"]] if "uv_index_of_vertex" in file else None
+            return _Head(
+                mean=file["mean"],
+                triangles=_fan(polygons.astype(np.int64)),
+                identity=file["identity"],
+                expression=file["expression"],
+                names=tuple(str(name) for name in file["expression_names"]),
+                landmarks=file["landmarks68"].astype(np.int32),
+                uv=uv,
+            )
+    except (OSError, ValueError, EOFError) as error:
+        raise UnreadableFile(path, f"not a packed ICT-FaceKit: {error}") from error
+    except KeyError as error:
+        raise UnreadableFile(path, f"not a packed ICT-FaceKit: lacks {error.args[0]!r}") from None
+
+
+def _from_folder(folder: Path) -> _Head:
+    neutral = next(folder.rglob("generic_neutral_mesh.obj"), None)
+    if neutral is None:
+        raise UnreadableFile(folder, "holds no generic_neutral_mesh.obj; give the folder FaceXModel of ICT-FaceKit")
+    mean, uv, polygons = _read_obj(neutral)
+    others = sorted(path for path in neutral.parent.glob("*.obj") if path != neutral)
+    identities = [path for path in others if path.stem.startswith("identity")]
+    expressions = [path for path in others if not path.stem.startswith("identity")]
+    if not identities:
+        raise UnreadableFile(folder, "holds no identityNNN.obj")
+    return _Head(
+        mean=mean,
+        triangles=_fan(polygons[:_NARROW_FACE]),
+        identity=_differences(identities, mean),
+        expression=_differences(expressions, mean),
+        names=tuple(path.stem for path in expressions),
+        landmarks=_landmarks_beside(neutral, len(mean)),
+        uv=uv,
+    )
+
+
+def _landmarks_beside(neutral: Path, vertices: int) -> NDArray[np.int32]:
+    """From `vertex_indices.json` where it is there, else as published."""
+    file = neutral.with_name("vertex_indices.json")
+    numbers: Any = _LANDMARKS
+    if file.is_file():
+        try:
+            numbers = json.loads(file.read_text(encoding="utf-8"))["idx_to_landmark_verts"]
+        except (OSError, ValueError, KeyError) as error:
+            raise UnreadableFile(file, f"has no list 'idx_to_landmark_verts': {error}") from error
+    landmarks = np.asarray(numbers, np.int32)
+    if landmarks.shape != (68,) or landmarks.max() >= vertices:
+        raise UnreadableFile(file, f"names {landmarks.shape} landmark vertices, expected 68 below {vertices}")
+    return landmarks
+
+
+def _differences(paths: list[Path], mean: NDArray[np.float32]) -> NDArray[np.float32]:
+    shapes = []
+    for path in paths:
+        shape = _read_obj(path)[0]
+        if shape.shape != mean.shape:
+            raise UnreadableFile(path, f"has {len(shape)} vertices, the neutral mesh has {len(mean)}")
+        shapes.append(shape - mean)
+    return np.stack(shapes) if shapes else np.zeros((0, *mean.shape), np.float32)
+
+
+def _read_obj(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32] | None, NDArray[np.int64]]:
+    """Vertices (V, 3), a texture coordinate for each (V, 2) or None, and polygons (F, 4); a triangle repeats its last."""
+    vertices, texture, polygons, of_vertex = [], [], [], {}
+    try:
+        with path.open(encoding="utf-8", errors="replace") as lines:
+            for line in lines:
+                word, _, rest = line.partition(" ")
+                if word == "v":
+                    vertices.append([float(x) for x in rest.split()[:3]])
+                elif word == "vt":
+                    texture.append([float(x) for x in rest.split()[:2]])
+                elif word == "f":
+                    corners = [corner.split("/") for corner in rest.split()[:4]]
+                    polygon = [int(corner[0]) - 1 for corner in corners]
+                    polygons.append(polygon + polygon[-1:] * (4 - len(polygon)))
+                    of_vertex.update({int(c[0]) - 1: int(c[1]) - 1 for c in corners if len(c) > 1 and c[1]})
+        uv = None
+        if texture and len(of_vertex) == len(vertices):
+            uv = np.asarray(texture, np.float32)[[of_vertex[v] for v in range(len(vertices))]]
+        return np.asarray(vertices, np.float32).reshape(-1, 3), uv, np.asarray(polygons, np.int64).reshape(-1, 4)
+    except (OSError, ValueError, IndexError) as error:
+        raise UnreadableFile(path, f"not a Wavefront OBJ: {error}") from error
+
+
+def _fan(polygons: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Polygons of four corners (or three, the last twice) as triangles."""
+    triangles = np.concatenate([polygons[:, [0, 1, 2]], polygons[:, [0, 2, 3]]])
+    return triangles[triangles[:, 1] != triangles[:, 2]]
