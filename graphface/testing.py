@@ -6,7 +6,8 @@
         check_node(blur, image, sigma=2.0)
 
 Everything memoization and threads rely on is checked: the operator does what its annotations say, changes none of its
-inputs, gives the same answer twice, and either answers non-finite input with finite values or refuses it clearly.
+inputs, gives the same answer twice, gives finite values for finite inputs, and does not break down over NaN: it refuses
+it clearly, absorbs it, or passes it on for the engine's guard to see.
 """
 
 from __future__ import annotations
@@ -23,13 +24,13 @@ from graphface.frozen import arrays_in, first_non_finite, freeze
 from graphface.node import Operator, operator_of
 
 
-def check_node(function: Callable[..., Any], *inputs: Any, non_finite: bool = True, **parameters: Any) -> Any:
+def check_node(function: Callable[..., Any], *inputs: Any, absorbs_nan: bool = False, **parameters: Any) -> Any:
     """Check one operator on one set of inputs; its output, for further assertions.
 
     Args:
         function: declared with `@node`.
         inputs: values of its ports, in order. parameters: by name, validated as in a graph.
-        non_finite: also feed it NaN and infinity.
+        absorbs_nan: demand that NaN and infinity in an input never reach the output.
 
     Raises:
         AssertionError: says which promise was broken, and by which port or field.
@@ -45,8 +46,7 @@ def check_node(function: Callable[..., Any], *inputs: Any, non_finite: bool = Tr
     assert problem is None, f"{operator.name}: output {problem}"
     found = first_non_finite(output, {})
     assert found is None, f"{operator.name}: output {found}"
-    if non_finite:
-        check_non_finite(operator, inputs, values)
+    check_non_finite(operator, inputs, values, absorbs=absorbs_nan)
     return output
 
 
@@ -96,8 +96,11 @@ def check_pure(operator: Operator, inputs: tuple[Any, ...], parameters: dict[str
     return first
 
 
-def check_non_finite(operator: Operator, inputs: tuple[Any, ...], parameters: dict[str, Any]) -> None:
-    """With a NaN or an infinity in any one array, the output is finite or the call is refused with a clear error."""
+def check_non_finite(
+    operator: Operator, inputs: tuple[Any, ...], parameters: dict[str, Any], *, absorbs: bool = False
+) -> None:
+    """With a NaN or an infinity in any one array, the call is refused with a clear error (ValueError or one of
+    graphface's), or the output is of its declared type, and with `absorbs` finite."""
     for index, (port, value) in enumerate(zip(operator.inputs, inputs, strict=False)):
         for which, (path, array) in enumerate(arrays_in(value)):
             if array.dtype.kind not in "fc" or array.size == 0:
@@ -114,7 +117,7 @@ def check_non_finite(operator: Operator, inputs: tuple[Any, ...], parameters: di
                     raise AssertionError(
                         f"{operator.name}: {bad} in {where}: {type(error).__name__}: {error}; say clearly what is wrong"
                     ) from error
-                found = first_non_finite(output, {})
+                found = operator.output.problem(output) or (first_non_finite(output, {}) if absorbs else None)
                 assert found is None, f"{operator.name}: {bad} in {where}: output {found}"
 
 
