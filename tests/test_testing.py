@@ -1,6 +1,7 @@
 """`check_node` lets a good operator pass and says of a bad one which promise it breaks."""
 
 import random
+import re
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -120,6 +121,11 @@ def obscure(grid: Grid) -> Grid:
     return np.eye(3)[[int(v) if np.isfinite(v) else 99 for v in grid[1] * 0], :]
 
 
+@node("bad.changes")
+def changes(grid: Grid) -> Grid:
+    return grid if np.isfinite(grid).all() else np.zeros(3)
+
+
 @node("bad.deep")
 def deep(stack: Stack) -> float:
     return float(stack.named["b"].sum())
@@ -157,9 +163,8 @@ BAD = {
     "gives another shape": (wrong_shape, (GRID,), "expected shape"),
     "gives None": (gives_none, (GRID,), "got None"),
     "gives infinity": (infinite, (GRID,), "1 non-finite of 12 values"),
-    "passes NaN on": (spreads, (GRID,), "nan in grid: output"),
     "fails obscurely on NaN": (obscure, (GRID,), "nan in grid: IndexError"),
-    "passes NaN deep inside on": (deep, (STACK,), "nan in stack.named.b: output is nan"),
+    "gives another type on NaN": (changes, (GRID,), "nan in grid: output expected shape"),
     "asks for a lazy port": (asks, (GRID, None), "its rule asks for extra"),
     "answers for an eager port": (answers, (GRID, None), "its rule answers for grid"),
     "has too few inputs": (refuse, (), "takes 1 to 2 inputs, got 0"),
@@ -189,9 +194,14 @@ class TestGood:
         check_node(clip, mine)
         mine[0, 0] = 1
 
-    def test_non_finite_off(self) -> None:
-        """An operator that is not to be asked about NaN is not."""
-        check_node(spreads, GRID, non_finite=False)
+    def test_passing_nan_on(self) -> None:
+        """NaN in, NaN out is good: the engine's guard sees it there."""
+        check_node(spreads, GRID)
+
+    def test_absorbing(self) -> None:
+        """An operator that says that it absorbs NaN does."""
+        check_node(clip, GRID, absorbs_nan=True)
+        check_node(stack, STACK, absorbs_nan=True)
 
 
 class TestBad:
@@ -202,6 +212,15 @@ class TestBad:
             check_node(function, *inputs)
         assert said in str(caught.value)
         assert function.__graphface_operator__.name in str(caught.value)
+
+    @pytest.mark.parametrize(
+        ("function", "given", "said"),
+        [(spreads, GRID, "nan in grid: output"), (deep, STACK, "nan in stack.named.b: output is nan")],
+    )
+    def test_does_not_absorb(self, function: Any, given: Any, said: str) -> None:
+        """One that says so and does not is caught, by the path of the array that was spoilt."""
+        with pytest.raises(AssertionError, match=re.escape(said)):
+            check_node(function, given, absorbs_nan=True)
 
     def test_own_errors(self) -> None:
         """What an operator says about its inputs is not dressed up."""
