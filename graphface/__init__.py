@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from graphface.errors import (
         DocumentError,
         GraphfaceError,
+        InputError,
         NodeError,
         RunError,
         RunFailed,
@@ -45,6 +46,7 @@ _HOMES = {
     "Graph": "graph",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
+    "InputError": "errors",
     "Lazy": "values",
     "MemoryTier": "cache.memory",
     "NodeError": "errors",
@@ -70,6 +72,7 @@ __all__ = [
     "Graph",
     "GraphfaceError",
     "GraphfaceWarning",
+    "InputError",
     "Lazy",
     "MemoryTier",
     "Needs",

@@ -67,11 +67,12 @@ def load(
         for plugin in plugins:
             registry.add_file(Path(plugin))
     shipped = shipped_folders(registry)
-    document, problems = _read(source, shipped, registry)
-    if problems:
-        raise DocumentError(problems)
     choices = Choices(tuple(variants), tuple(profiles), dict(replace or {}), dict(set or {}))
-    return Graph(compose(document, choices, shipped=shipped), registry)
+    with _collector_paused():
+        document, problems = _read(source, shipped, registry)
+        if problems:
+            raise DocumentError(problems)
+        return Graph(compose(document, choices, shipped=shipped), registry)
 
 
 def shipped_folders(registry: Registry) -> list[Path]:
