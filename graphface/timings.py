@@ -7,6 +7,7 @@ unwritable, it is as if there were none.
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -28,7 +29,8 @@ class Timings:
     def load(cls) -> Timings:
         try:
             stored = json.loads(_file().read_text(encoding="utf-8"))
-            return cls({str(name): float(value) for name, value in stored.items()})
+            seconds = {str(name): float(value) for name, value in stored.items()}
+            return cls({name: value for name, value in seconds.items() if 0 <= value < math.inf})
         except (OSError, ValueError, TypeError, AttributeError):
             return cls()
 
