@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from graphface.nodes.types import Image
 
 from graphface import load
+from graphface.nodes.types import Image
 from graphface.testing import check_node
 
 README = Path(__file__).resolve().parents[1] / "README.md"
