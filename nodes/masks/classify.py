@@ -26,6 +26,18 @@ from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Mask,
 Scores = FloatArray
 """h x w x 4, in the order FACE, HAIR, BACKDROP, CLOTHES."""
 
+OPENNESS = 0.02
+"""Share of any class that may look like anything."""
+
+UNKNOWN = -1.0
+"""Score of a class of which there is no sample, beside a broad Gaussian of the whole window."""
+
+STRIP = 0.12
+"""Width of the thinnest hair that can carry more hair, in inter-ocular distances."""
+
+NO_HAIR = 6.0
+"""Taken off the score of hair everywhere where the detector found none."""
+
 
 @node("masks.classify")
 def classify(
@@ -37,7 +49,7 @@ def classify(
     *,
     components: Annotated[int, Field(ge=1, le=16)] = 4,
     prior: Annotated[float, Field(ge=0, le=4)] = 1.0,
-    evidence: Annotated[float, Field(gt=0, le=4)] = 0.4,
+    evidence: Annotated[float, Field(gt=0, le=4)] = 0.6,
     smoothing: Smoothing = "mean_field",
     rounds: Annotated[int, Field(ge=1, le=10)] = 2,
 ) -> Segmentation:
@@ -60,13 +72,15 @@ def classify(
     pixels = window.shrunk(photo.pixels)
     sure = window.shrunk(masks.conservative) > 0.5
     expected = prior * log_prior(layout)
-    belief = _seeds(sure, window.shrunk(masks.aggressive), window.shrunk(hair.mask), layout)
+    belief = _seeds(sure, window.shrunk(masks.aggressive), window.shrunk(hair.response), layout)
+    if not belief[..., HAIR].any():
+        expected[..., HAIR] -= NO_HAIR
     for _ in range(rounds):
         scores = expected + evidence * _likelihoods(values, belief, sure & ~layout.features, components)
         scores[sure] = _certain(FACE)
         belief = smoothed(scores, pixels, method=smoothing)
         belief[sure] = np.eye(4, dtype=np.float32)[FACE]
-    belief = _connected(belief, layout)
+    belief = _connected(belief, layout, landmarks.interocular * window.scale)
     shape = masks.normal.shape
     face, locks = (window.enlarged(belief[..., k], shape, beyond=0) for k in (FACE, HAIR))
     return Segmentation(face, locks, np.maximum(1 - face - locks, 0))
@@ -76,14 +90,14 @@ def _certain(label: int) -> FloatArray:
     return np.where(np.arange(4) == label, 0, -60).astype(np.float32)
 
 
-def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, hair: FloatArray, layout: Layout) -> FloatArray:
+def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, response: FloatArray, layout: Layout) -> FloatArray:
     """First beliefs, h x w x 4, all 0 where nothing is assigned."""
     belief = np.zeros((*sure.shape, 4), np.float32)
-    outside = (aggressive < 0.5) & (hair < 0.5)
+    outside = (aggressive < 0.5) * (1 - 0.8 * response)
     low = layout.high < CHIN - 0.35
-    belief[..., BACKDROP] = outside & ~low
-    belief[..., CLOTHES] = low & (outside | (layout.high < CHIN - 0.8)) & (np.abs(layout.right) < 2.2)
-    belief[..., HAIR] = hair * (layout.high > EYE_LINE - 0.3) * ~sure
+    belief[..., BACKDROP] = outside * ~low
+    belief[..., CLOTHES] = low & ((aggressive < 0.5) | (layout.high < CHIN - 0.9))
+    belief[..., HAIR] = response * ((layout.head < 0) & (layout.high > EYE_LINE - 0.3) & ~sure)
     belief[..., FACE] = sure
     return belief
 
@@ -98,34 +112,41 @@ def _likelihoods(
         weights = belief[..., label].reshape(-1)
         chosen = thinned(np.flatnonzero(weights > 0.2))
         fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components + 1))
-    found = [None if m is None else m.log_likelihood(flat) for m in fitted]
-    known = [f for f in found if f is not None]
-    if not known:
-        warn("masks.classify: no pixel is surely anything; labels follow from their place alone")
+    # What a class does not know it is a little open to: a broad Gaussian of the whole window bounds every ratio.
+    broad = fit_mixture(thinned(flat), components=1, floor=0.1)
+    if broad is None:
+        warn("masks.classify: no pixel has finite features; labels follow from their place alone")
         return np.zeros((*values.shape[:2], 4), np.float32)
-    absent = np.minimum.reduce(known) - 5
-    scores = np.stack([absent if f is None else f for f in found], axis=1)
-    # Far from every class the likelihoods fall without bound; what matters is which class is nearest.
-    scores = np.maximum(scores - scores.max(axis=1, keepdims=True), -30)
-    return scores.reshape(*values.shape[:2], 4).astype(np.float32, copy=False)
+    anything = broad.log_likelihood(flat) + np.log(OPENNESS)
+    scores = [anything - np.log(OPENNESS) + UNKNOWN if m is None else np.logaddexp(m.log_likelihood(flat), anything) for m in fitted]
+    return np.stack(scores, axis=1).reshape(*values.shape[:2], 4).astype(np.float32, copy=False)
 
 
-def _connected(belief: FloatArray, layout: Layout) -> FloatArray:
-    """Hair that does not hang on the head and face that does not hang on the face become background."""
+def _connected(belief: FloatArray, layout: Layout, unit: float) -> FloatArray:
+    """Hair that does not hang on the head and face that does not hang on the face become background.
+
+    What hangs by a strip thinner than `STRIP` does not hang: the shadow of a jaw may tie a dark suit to dark hair.
+    """
     belief = belief.copy()
-    head = (layout.head < 0) & (layout.high > CHIN)
-    for label, root in ((HAIR, head), (FACE, (layout.outline < 0) | (layout.neck < 0) | head)):
-        stray = _apart(belief[..., label] > 0.3, root)
+    head = (layout.head < 0) & (layout.high > CHIN + 0.5)
+    skin = (layout.outline < 0) | (layout.neck < 0) | head
+    for label, root, stays in ((HAIR, head & (layout.high > EYE_LINE), head), (FACE, skin, skin)):
+        stray = _apart(belief[..., label] > 0.3, root, unit) & ~stays
         belief[..., BACKDROP] += np.where(stray, belief[..., label], 0)
         belief[..., label] *= ~stray
     return belief
 
 
-def _apart(region: NDArray[np.bool_], root: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The connected parts of a region that do not touch the root."""
+def _apart(region: NDArray[np.bool_], root: NDArray[np.bool_], unit: float) -> NDArray[np.bool_]:
+    """The parts of a region that do not touch the root, or only by a thin strip."""
     import cv2
 
-    count, labels = cv2.connectedComponents(region.astype(np.uint8), connectivity=4)
-    touches = np.zeros(count, bool)
-    touches[np.unique(labels[region & root])] = True
-    return region & ~touches[labels]
+    thin = max(0, round(STRIP * unit / 2))
+    element = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * thin + 1, 2 * thin + 1))
+    body = cv2.erode(region.astype(np.uint8), element, borderType=cv2.BORDER_REPLICATE)
+    count, labels = cv2.connectedComponents(body, connectivity=8)
+    touches = np.zeros(count, np.uint8)
+    touches[np.unique(labels[root])] = 1
+    touches[0] = 0
+    kept = cv2.dilate(touches[labels], element, iterations=2)
+    return region & (kept == 0)

@@ -17,12 +17,15 @@ from pydantic import Field
 from graphface import node
 from graphface.nodes.masks.features import PixelFeatures
 from graphface.nodes.masks.mixture import Mixture, fit_mixture
-from graphface.nodes.masks.prior import Layout, layout_of
+from graphface.nodes.masks.prior import layout_of, log_sum_exp
 from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.types import FloatArray, HeadMasks, Landmarks, Mask
 
 SAMPLES = 3000
 """Pixels that a mixture is fitted to; taken at even steps."""
+
+SHINE, SHINE_HUE = 0.07, 1.9
+"""A scalp is lighter than the face by more than this share of white, and its hue off by less than this many spreads."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,7 @@ def hair(
     *,
     components: Annotated[int, Field(ge=1, le=16)] = 4,
     margin: Annotated[float, Field(ge=0, le=20)] = 3.0,
-    least: Annotated[float, Field(ge=0, le=1)] = 0.06,
+    least: Annotated[float, Field(ge=0, le=1)] = 0.12,
     rounds: Annotated[int, Field(ge=1, le=10)] = 4,
 ) -> Hair:
     """Find hair by the colours and textures on top of this head.
@@ -64,29 +67,39 @@ def hair(
     shape = masks.normal.shape
     top = (normal > 0.5) & (layout.outline > 0.05) & (layout.high > EYE_LINE + 0.15)
     skin = skin_mixture(values, (conservative > 0.5) & ~layout.features, components)
-    beside = backdrop_mixture(values, (aggressive < 0.5) & (layout.high > CHIN), components)
-    mixture = detector(values[top], [m for m in (skin, beside) if m is not None], components, margin, least, rounds)
+    beside = fit_mixture(thinned(values[(aggressive < 0.5) & (layout.high > CHIN)]), components=components + 2)
+    rivals = [m for m in (skin, beside) if m is not None]
+    mixture = detector(values[top], skin, rivals, components, margin, least, rounds)
     if mixture is None:
         nothing = np.zeros(shape, np.float32)
         return Hair(nothing, nothing)
     flat = values.reshape(-1, values.shape[2])
-    lead = mixture.log_likelihood(flat) - rival_likelihood(flat, [m for m in (skin, beside) if m is not None])
+    lead = mixture.log_likelihood(flat) - rival_likelihood(flat, rivals)
     response = window.enlarged(sigmoid(lead - margin).reshape(values.shape[:2]), shape, beyond=0)
     return Hair(response, response * masks.normal)
 
 
 def detector(
-    samples: FloatArray, rivals: list[Mixture], components: int, margin: float, least: float, rounds: int
+    samples: FloatArray,
+    skin: Mixture | None,
+    rivals: list[Mixture],
+    components: int,
+    margin: float,
+    least: float,
+    rounds: int,
 ) -> Mixture | None:
-    """A mixture of the samples (n, D) that no rival explains, or None where too few are left."""
+    """A mixture of the samples (n, D) that neither a rival nor shining skin explains; None where too few are left."""
     samples = thinned(samples)
     rival = rival_likelihood(samples, rivals)
-    weights: FloatArray = np.ones(len(samples), np.float32)
-    mixture = fit_mixture(samples, weights, components=components)
+    mixture = fit_mixture(samples, components=components)
     for _ in range(rounds):
         if mixture is None:
             return None
-        weights = sigmoid(mixture.log_likelihood(samples) - rival - margin)
+        joint = mixture.joint(samples)
+        total = log_sum_exp(joint)
+        weights = sigmoid(total[:, 0] - rival - margin)
+        if skin is not None:
+            weights *= 1 - np.exp(joint - total)[:, shiny(mixture, skin)].sum(axis=1)
         if weights.mean() < least:
             return None
         mixture = fit_mixture(samples, weights, components=components)
@@ -114,8 +127,15 @@ def skin_mixture(values: FloatArray, where: NDArray[np.bool_], components: int) 
     return Mixture(mixture.weights, mixture.means, widened)
 
 
-def backdrop_mixture(values: FloatArray, where: NDArray[np.bool_], components: int) -> Mixture | None:
-    return fit_mixture(thinned(values[where]), components=components + 2)
+def shiny(mixture: Mixture, skin: Mixture) -> NDArray[np.bool_]:
+    """Which Gaussians of a mixture are lighter than the skin and nearly of its hue: a bald head's, not fair hair."""
+    middle = skin.weights @ skin.means
+    between = np.square(skin.means - middle)[:, 1:3]
+    spread = np.sqrt((skin.weights @ (between + np.diagonal(skin.covariances, axis1=1, axis2=2)[:, 1:3])).sum())
+    away = mixture.means - middle
+    hue = np.hypot(away[:, 1], away[:, 2]) / max(float(spread), 1e-6)
+    lighter: NDArray[np.bool_] = (away[:, 0] > SHINE) & (hue < SHINE_HUE)
+    return lighter
 
 
 def rival_likelihood(samples: FloatArray, rivals: list[Mixture]) -> FloatArray:

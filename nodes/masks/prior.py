@@ -65,15 +65,16 @@ def log_prior(layout: Layout) -> FloatArray:
 
     scalp = np.where(high > EYE_LINE, np.minimum(layout.head, 0.0), 1.0)
     skin = np.minimum(layout.outline, layout.neck + 0.1 + 0.25 * below_chin)
-    ear = np.where(high > EYE_LINE + 0.25, 1.0, layout.head)
-    face = 2.0 - 6.0 * np.clip(np.minimum(skin, ear), 0, 1) - 3.0 * above_eyes * (layout.outline > 0)
+    ear = np.where(high > EYE_LINE + 0.25, 1.0, layout.head + 0.05)
+    fall = np.where(below_chin > 0, 3.5, 6.0)  # shoulders may be bare
+    face = 2.0 - fall * np.clip(np.minimum(skin, ear), 0, 1) - 3.0 * above_eyes * (layout.outline > 0)
     face = np.where(scalp < 0, np.maximum(face, -1.0), face)
 
-    reach = np.where(high > CHIN, 2.2, 3.0)
-    hair = 1.5 - reach * np.maximum(layout.head, 0) - 1.0 * below_chin
+    sideways = np.where(below_chin > 0, np.maximum(side - 0.9, 0), 1.2 * np.maximum(layout.head, 0))
+    hair = 1.5 - 2.2 * sideways - 0.8 * below_chin
     inner = np.maximum(-layout.outline, 0)
     hair -= np.where(high > EYE_LINE + 0.2, 4.0, 12.0) * inner
-    hair -= np.where(layout.neck < 0, 1.0, 0.0) * np.clip(1.2 * (0.7 - side), 0, 1) * 3
+    hair -= 5.0 * np.clip(1.2 * (0.75 - side), 0, 1) * ((layout.neck < 0) & (layout.outline > 0))
 
     backdrop = np.clip(0.5 + 3.0 * layout.head, -4, 2.0) - 1.5 * np.clip(below_chin * 2 - side, 0, 1.5)
     clothes = np.clip(-3 + 5.0 * (below_chin - 0.35 + 0.15 * np.minimum(side, 1)), -8, 2.0)
