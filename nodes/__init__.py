@@ -6,6 +6,7 @@
 from graphface import Pack
 
 _TYPES = "graphface.nodes.types"
+_INTRINSIC = ("intensity", "retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 _DETAIL = "graphface.nodes.detail"
 
 pack = Pack(
@@ -19,12 +20,18 @@ pack = Pack(
         "person": "graphface.nodes.morphable.morphable",
         "surface": "graphface.nodes.render.surface",
         "masks": "graphface.nodes.masks.face",
-        "intrinsic": "graphface.nodes.intrinsic.intensity",
+        "intrinsic": " ".join(f"graphface.nodes.intrinsic.{method}" for method in _INTRINSIC),
         "sh": "graphface.nodes.sh",
         "detail": " ".join(f"{_DETAIL}.{method}" for method in ("additive", "multiplicative", "none", "split")),
         "detail.edit": " ".join(f"{_DETAIL}.{edit}" for edit in ("bands", "wrinkles", "shine")),
         "render": "graphface.nodes.render.shade graphface.nodes.render.shadows graphface.nodes.render.spread",
-        "blend": "graphface.nodes.blend",
+        "warp": "graphface.nodes.warp.mesh graphface.nodes.warp.resample",
+        "flow": " ".join(f"graphface.nodes.flow.{m}" for m in ("none", "dis", "farneback", "deepflow", "tvl1")),
+        "makeup": " ".join(
+            f"graphface.nodes.makeup.{stage}" for stage in ("features", "tone", "detail", "skin", "coverage", "boundary")
+        ),
+        "blend": "graphface.nodes.blend "
+        + " ".join(f"graphface.nodes.blending.{method}" for method in ("linear", "multiband", "poisson")),
     },
     types={
         **{
@@ -52,6 +59,9 @@ pack = Pack(
             )
         },
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
+        "Correspondence": "graphface.nodes.warp.correspondence:Correspondence",
+        "Features": "graphface.nodes.makeup.features:Features",
+        "Pins": "graphface.nodes.warp.correspondence:Pins",
         "Scene": "graphface.nodes.render.scene:Scene",
         "Shadows": "graphface.nodes.render.visibility:Shadows",
     },

@@ -1,0 +1,120 @@
+"""From the painted face to neck, ears and hairline (paper, "Boundary processing").
+
+The face's boundary is shrunk, and a ring beyond it mirrored from inside. Here it is the change that is mirrored, as a
+factor on the input's pixels, not the pixels: the ring keeps the input's own texture, nothing is seen twice, and where
+nothing changes the ring does not either. Beyond the ring the factor goes over into that of the skin as a whole, so that
+neck and ears take the face's new tone.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import node, warn
+from graphface.nodes.makeup.features import Features
+from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
+from graphface.nodes.warp.correspondence import Correspondence
+
+_FLOOR = 0.05
+"""Added to both sides of the factor: black stays near black."""
+
+_MOST = 2.0
+"""Largest magnitude of the factor's logarithm."""
+
+
+@node("makeup.core")
+def core(
+    mask: Mask,
+    skin: Mask,
+    correspondence: Correspondence,
+    landmarks: Landmarks,
+    *,
+    shrink: Annotated[float, Field(ge=0, le=1)] = 0.06,
+    softness: Annotated[float, Field(ge=0, le=1)] = 0.06,
+) -> Mask:
+    """Where the painted face is taken as it is: inside the mesh, off its rim, on skin that the reference shows.
+
+    Args:
+        mask: a face mask of the input; where it is 0 nothing is core.
+        skin: the input's skin. shrink, softness: width of the rim that is left out and of the way to it, in
+            inter-ocular distances.
+    """
+    import cv2
+
+    unit = max(landmarks.interocular, 1e-3)
+    usable = ((correspondence.inside > 0) & (correspondence.known > 0.5) & (skin > 0.5) & (mask > 0)).astype(np.uint8)
+    if not usable.any():
+        warn("makeup.core: no pixel of the input's face has a counterpart in the reference; nothing is painted")
+        return np.zeros_like(mask)
+    depth = cv2.distanceTransform(usable, cv2.DIST_L2, 5) - 0.5
+    t = np.clip((depth - shrink * unit) / max(softness * unit, 1.0), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), np.float32)
+
+
+@node("makeup.boundary")
+def boundary(
+    photo: Image,
+    painted: Image,
+    core: Mask,
+    features: Features,
+    landmarks: Landmarks,
+    *,
+    ring: Annotated[float, Field(ge=0, le=2)] = 0.25,
+    resolution: Annotated[int, Field(ge=8, le=256)] = 64,
+) -> Image:
+    """The painted face, continued over the whole picture.
+
+    Args:
+        photo: the input. painted: valid where `core` is not 0.
+        ring: width of the mirrored ring, in inter-ocular distances (the paper's 30 pixels on its photos).
+        resolution: pixels per inter-ocular distance of the copy on which the change is continued.
+    """
+    import cv2
+
+    if not (core > 0).any():
+        return photo
+    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
+    unit = landmarks.interocular * scale
+    size = tuple(max(1, round(n * scale)) for n in core.shape)
+
+    def small(values: FloatArray) -> FloatArray:
+        return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
+
+    weight = small(core)
+    change = np.log(np.maximum(small(painted.pixels), 0) + np.float32(_FLOOR))
+    change -= np.log(np.maximum(small(photo.pixels), 0) + np.float32(_FLOOR))
+    known = weight >= min(0.5, float(weight.max()))
+    parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows)
+    bare = known & (small(np.maximum.reduce(parts)) < 0.1)
+    whole = np.median(change[bare if bare.any() else known], axis=0).astype(np.float32)
+    continued = _continued(np.clip(change, -_MOST, _MOST), known, whole, max(ring * unit, 1e-3), unit)
+    factor = np.exp(cv2.resize(continued, core.shape[::-1], interpolation=cv2.INTER_LINEAR))
+    beyond = (photo.pixels + np.float32(_FLOOR)) * factor - np.float32(_FLOOR)
+    return photo.with_pixels(beyond + core[..., None] * (painted.pixels - beyond))
+
+
+def _continued(change: FloatArray, known: NDArray[np.bool_], whole: FloatArray, ring: float, unit: float) -> FloatArray:
+    """The change, mirrored at the boundary within `ring` pixels of it, then going over into that of the whole skin."""
+    import cv2
+
+    distance, label = cv2.distanceTransformWithLabels(
+        (~known).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    y, x = np.mgrid[: known.shape[0], : known.shape[1]].astype(np.float32)
+    at = np.zeros((int(label.max()) + 1, 2), np.float32)
+    at[label[known]] = np.stack([x[known], y[known]], axis=1)
+    nearest = at[label]
+    mirrored = 2 * nearest - np.dstack([x, y])
+    inside = cv2.remap(known.astype(np.float32), mirrored, None, cv2.INTER_LINEAR, borderValue=0)[..., None]
+    values = np.where(known[..., None], change, whole)
+    reflected = cv2.remap(values, mirrored, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    edge = cv2.remap(values, nearest, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    reflected = edge + np.clip(inside * 2 - 1, 0, 1) * (reflected - edge)
+    near = cv2.GaussianBlur(np.where(known[..., None], change, reflected), (0, 0), max(0.03 * unit, 0.5))
+    t = np.clip(distance / ring, 0, 1)[..., None]
+    t = t * t * (3 - 2 * t)
+    return np.asarray(near + t * (whole - near), np.float32)

@@ -1,0 +1,87 @@
+"""The blended detail map I_d^b(i, r) (paper, section "Makeup Transfer").
+
+What makes a face its owner's is relief, and relief is fine: the line between the lips, the wings of the nose, the folds
+of the lids. What makes up a face is broad: the darkness of a lipstick, a stripe. Around eyes, nose and mouth the input's
+fine detail therefore sits on the reference's broad detail; in the openings all of it is the input's; elsewhere, the
+reference's (caking, powder and smears are what real makeup looks like).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.makeup.features import Features
+from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
+
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+@node("makeup.keep")
+def keep(
+    features: Features,
+    *,
+    nose: Share = 1.0,
+    lids: Share = 0.6,
+    lips: Share = 0.6,
+    brows: Share = 0.0,
+    elsewhere: Share = 0.0,
+) -> Mask:
+    """How much of the input's fine detail stays: the mask that detail maps are blended by."""
+    shares = ((features.nose, nose), (features.lids, lids), (features.lips, lips), (features.brows, brows))
+    mask = np.full_like(features.nose, elsewhere)
+    for part, share in shares:
+        mask = np.maximum(mask, part * np.float32(share))
+    return np.maximum(mask, np.maximum(features.eyes, features.mouth))
+
+
+@node("makeup.detail")
+def detail(
+    detail: DetailMap,
+    reference: DetailMap,
+    keep: Mask,
+    features: Features,
+    landmarks: Landmarks,
+    *,
+    fine: Annotated[float, Field(gt=0, le=1)] = 0.04,
+) -> DetailMap:
+    """The input's detail map in the openings, its fine part where `keep` says, else the reference's.
+
+    Args:
+        detail: the input's. reference: the reference's, warped to the input.
+        fine: what counts as fine: the scale of the Gaussian that is taken off, in inter-ocular distances.
+
+    Returns:
+        A map with the parts (offset, gain, pivot) that either of the two has.
+    """
+    sigma = max(fine * landmarks.interocular, 0.5)
+    opening = np.maximum(features.eyes, features.mouth)
+    parts = {}
+    for name in vars(reference):
+        own, other = getattr(detail, name), getattr(reference, name)
+        if own is not None or other is not None:
+            neutral = np.zeros if name == "offset" else np.ones
+            own, other = (v if v is not None else neutral(keep.shape + (3,), np.float32) for v in (own, other))
+            parts[name] = _blended(own, other, keep, opening, sigma)
+    return replace(reference, **parts)
+
+
+def _blended(own: FloatArray, other: FloatArray, keep: Mask, opening: Mask, sigma: float) -> FloatArray:
+    """other + keep * (fine(own) - fine(other)), and `own` in the openings. The fine part is linear: one blur will do."""
+    import cv2
+
+    rows, columns = np.flatnonzero(keep.any(axis=1)), np.flatnonzero(keep.any(axis=0))
+    if rows.size == 0:
+        return other
+    blended = other.copy()
+    window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    difference = own[window] - other[window]
+    broad = cv2.GaussianBlur(difference, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
+    open_part = opening[window][..., None]
+    share = keep[window][..., None] * (1 - open_part)
+    blended[window] += share * (difference - broad) + open_part * difference
+    return blended

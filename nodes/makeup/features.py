@@ -1,0 +1,121 @@
+"""Soft masks of the parts of a face that makeup treats differently, drawn from the 468 points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import UsageError, node, warn
+from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
+
+# Numbers of FaceMesh points along each outline; first the person's right (the picture's left), then the left.
+EYES = (
+    (33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246),
+    (263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466),
+)
+LIDS = (
+    (46, 53, 52, 65, 55, 226, 31, 228, 229, 230, 231, 232, 233, 244),
+    (276, 283, 282, 295, 285, 446, 261, 448, 449, 450, 451, 452, 453, 464),
+)
+BROWS = (
+    (70, 63, 105, 66, 107, 55, 65, 52, 53, 46),
+    (300, 293, 334, 296, 336, 285, 295, 282, 283, 276),
+)
+CHEEKS = ((117, 50, 36, 205, 187, 147, 123, 116), (346, 280, 266, 425, 411, 376, 352, 345))
+LIPS = (61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 409, 270, 269, 267, 0, 37, 39, 40, 185)
+MOUTH = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308, 415, 310, 311, 312, 13, 82, 81, 80, 191)
+NOSE = (168, 122, 174, 198, 209, 49, 64, 98, 97, 2, 326, 327, 294, 279, 429, 420, 399, 351)
+
+
+@dataclass(frozen=True)
+class Features:
+    """Masks H x W: the openings `eyes` and `mouth`, and `lips` (without the mouth), `lids`, `brows`, `nose`, `cheeks`."""
+
+    eyes: Mask
+    mouth: Mask
+    lips: Mask
+    lids: Mask
+    brows: Mask
+    nose: Mask
+    cheeks: Mask
+
+    @staticmethod
+    def picture(features: Features) -> NDArray[np.uint8]:
+        """Red lips and cheeks, green lids and nose, blue brows; the openings white."""
+        openings = np.maximum(features.eyes, features.mouth)
+        red = np.maximum(features.lips, 0.5 * features.cheeks)
+        green = np.maximum(features.lids, 0.5 * features.nose)
+        colours = np.stack([np.maximum(c, openings) for c in (red, green, features.brows)], axis=2)
+        return np.rint(np.clip(colours, 0, 1) * 255).astype(np.uint8)
+
+
+@node("makeup.features")
+def features(photo: Image, landmarks: Landmarks, *, softness: Annotated[float, Field(ge=0, le=1)] = 0.02) -> Features:
+    """Where eyes, mouth, lips, lids, brows, nose and cheeks are.
+
+    Args:
+        photo: gives the size. landmarks: scheme "facemesh468".
+        softness: blur of the outlines, in inter-ocular distances; broad parts (cheeks, lids, nose) get a multiple.
+
+    Raises:
+        UsageError: the landmarks follow another scheme.
+    """
+    if landmarks.scheme != "facemesh468":
+        raise UsageError(f"makeup.features needs landmarks of the scheme 'facemesh468', got {landmarks.scheme!r}")
+    if not np.isfinite(landmarks.points).all():
+        warn("makeup.features: some landmarks are not finite; they are left out of the outlines")
+    canvas = _Canvas(photo, landmarks, softness * landmarks.interocular)
+    eyes, mouth = canvas.drawn(EYES, 0.7), canvas.drawn((MOUTH,), 0.7)
+    return Features(
+        eyes=eyes,
+        mouth=mouth,
+        lips=np.maximum(canvas.drawn((LIPS,), 1) - mouth, 0),
+        lids=np.maximum(canvas.drawn(LIDS, 3, hull=True) - eyes, 0),
+        brows=canvas.drawn(BROWS, 2, hull=True),
+        nose=canvas.drawn((NOSE,), 2),
+        cheeks=canvas.drawn(CHEEKS, 6, hull=True),
+    )
+
+
+class _Canvas:
+    """Draws soft polygons into the part of the picture that holds the face."""
+
+    def __init__(self, photo: Image, landmarks: Landmarks, softness: float) -> None:
+        self.shape = (photo.height, photo.width)
+        self.points = landmarks.points[:, :2].astype(np.float64)
+        self.softness = softness
+
+    def drawn(self, outlines: tuple[tuple[int, ...], ...], blur: float, hull: bool = False) -> FloatArray:
+        """Polygons through numbered points (or their convex hulls), blurred by a multiple of the softness."""
+        import cv2
+
+        mask = np.zeros(self.shape, np.float32)
+        sigma = max(blur * self.softness, 0.3)
+        for outline in outlines:
+            corners = self.points[list(outline)]
+            corners = corners[np.isfinite(corners).all(axis=1)]
+            box = self._box(corners, margin=3 * sigma + 2)
+            if box is None:
+                continue
+            rows, columns = box
+            origin = np.array([columns.start, rows.start])
+            fixed: NDArray[Any] = np.round((corners - origin) * 16).astype(np.int32)
+            if hull:
+                fixed = cv2.convexHull(fixed)[:, 0]
+            drawn = np.zeros((rows.stop - rows.start, columns.stop - columns.start), np.uint8)
+            cv2.fillPoly(drawn, [fixed], 255, cv2.LINE_AA, 4)
+            soft = cv2.GaussianBlur(drawn.astype(np.float32) / 255, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
+            mask[rows, columns] = np.maximum(mask[rows, columns], soft)
+        return mask
+
+    def _box(self, corners: NDArray[np.float64], margin: float) -> tuple[slice, slice] | None:
+        if len(corners) < 3:
+            return None
+        height, width = self.shape
+        x0, y0 = np.floor(np.clip(corners.min(axis=0) - margin, 0, (width, height))).astype(int)
+        x1, y1 = np.ceil(np.clip(corners.max(axis=0) + margin + 1, 0, (width, height))).astype(int)
+        return (slice(int(y0), int(y1)), slice(int(x0), int(x1))) if x1 > x0 and y1 > y0 else None

@@ -1,0 +1,98 @@
+"""How much of the reference's skin comes with its makeup: colour by the albedo, lightness by the shading.
+
+Where shading is intensity, albedo has no lightness, and the light fitted to a dark face is a dim one. So the tone that
+a person's skin has is in two places, and both are moved by the same parameter.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import node, warn
+from graphface.nodes.makeup.features import Features
+from graphface.nodes.types import Albedo, DetailMap, FloatArray, Mask, Shading
+
+Tone = Annotated[float, Field(ge=0, le=1)]
+
+_LEAST_LIGHT = 0.02
+_LEAST_ALBEDO = 0.05
+_MOST_RATIO = 8.0
+
+
+@node("makeup.albedo")
+def albedo(
+    albedo: Albedo, reference: Albedo, mask: Mask, features: Features, *, tone: Tone = 1.0, eyes: Tone = 0.0
+) -> Albedo:
+    """rho(r) where makeup goes, rho(i) in the openings of eyes and mouth (paper: "for most regions of the face").
+
+    Args:
+        albedo: the input's. reference: the reference's, warped to the input.
+        mask: the input's face, over which the skins' colours are compared.
+        tone: share of the reference's skin colour that comes along; at 0 only what differs from its skin does.
+        eyes: how much the openings are painted as well (contact lenses).
+    """
+    opening = np.maximum(features.eyes, features.mouth)[..., None]
+    if tone < 1:
+        skin = _skin(mask, features)
+        own, other = (_median(values, skin) for values in (albedo, reference))
+        reference = reference * np.float32(own / np.maximum(other, _LEAST_ALBEDO)) ** np.float32(1 - tone)
+    painted: Albedo = reference + opening * np.float32(1 - eyes) * (albedo - reference)
+    return painted
+
+
+@node("makeup.shading")
+def shading(shading: Shading, estimated: Shading, reference: Shading, mask: Mask, *, tone: Tone = 1.0) -> Shading:
+    """The light that the painted face is rendered under: `shading`, as much brighter as the reference's skin is.
+
+    Args:
+        shading: the input's own, spread over the picture, or that of a new scene.
+        estimated: the input's own. reference: the reference's, warped to the input. mask: where they are compared.
+        tone: share of the difference in lightness that is taken over.
+    """
+    return shading * np.float32(lightness(estimated, reference, mask) ** tone)
+
+
+@node("makeup.exposed")
+def exposed(detail: DetailMap, estimated: Shading, reference: Shading, mask: Mask, *, tone: Tone = 1.0) -> DetailMap:
+    """The reference's detail map, as strong as it is under the light that `makeup.shading` gives.
+
+    Differences that the reference's skin shows in its own exposure are scaled with the lightness that it is rendered in.
+    """
+    from dataclasses import replace
+
+    if tone == 1:
+        return detail
+    factor = np.float32(lightness(estimated, reference, mask) ** (tone - 1))
+    pivot = {"pivot": p * factor} if (p := getattr(detail, "pivot", None)) is not None else {}
+    return replace(detail, offset=detail.offset * factor, **pivot)
+
+
+def lightness(estimated: Shading, reference: Shading, mask: Mask) -> float:
+    """Mean shading of the reference over that of the input, within 1/8 and 8; 1 where there is nothing to compare."""
+    total = float(mask.sum(dtype=np.float64))
+    if total < 1e-6:
+        warn("makeup: the face mask is empty; the lightness of the two skins is taken as equal")
+        return 1.0
+    own, other = (
+        float(np.einsum("hw,hw->", v.reshape(*mask.shape, -1).mean(axis=2), mask, dtype=np.float64)) / total
+        for v in (estimated, reference)
+    )
+    return float(np.clip(max(other, _LEAST_LIGHT) / max(own, _LEAST_LIGHT), 1 / _MOST_RATIO, _MOST_RATIO))
+
+
+def _skin(mask: Mask, features: Features) -> NDArray[np.bool_]:
+    """Bare skin: inside the face, off all its features."""
+    parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows)
+    skin: NDArray[np.bool_] = (mask > 0.5) & (np.maximum.reduce(parts) < 0.1)
+    return skin
+
+
+def _median(values: FloatArray, where: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Median colour; grey where there is no pixel."""
+    if not where.any():
+        return np.ones(3, np.float32)
+    return np.asarray(np.median(values[where][:: max(1, int(where.sum()) // 20000)], axis=0), np.float32)

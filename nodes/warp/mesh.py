@@ -1,0 +1,140 @@
+"""Correspondence through two aligned meshes (paper, section 2, "Face geometry"): the same triangle, the same weights."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import UsageError, node, warn
+from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.types import FloatArray, Mask, Mesh, Surface
+from graphface.nodes.warp.correspondence import Correspondence, Pins
+
+Hidden = Literal["mirror", "input"]
+
+
+@node("warp.mesh")
+def mesh(
+    surface: Surface,
+    mesh: Mesh,
+    reference_surface: Surface,
+    reference_mesh: Mesh,
+    reference_mask: Mask | None = None,
+    pins: Pins | None = None,
+    *,
+    hidden: Hidden = "mirror",
+    facing: Annotated[float, Field(gt=0, lt=1)] = 0.25,
+    pin_reach: Annotated[float, Field(gt=0, le=5)] = 0.3,
+) -> Correspondence:
+    """Where each pixel's point of the input's face lies in the reference.
+
+    Args:
+        surface, mesh: the input's. reference_surface, reference_mesh: the reference's, of the same triangles.
+        reference_mask: what of the reference may be taken, its skin; without it all of its mesh.
+        pins: correspondences set by hand; their corrections fade out over `pin_reach` inter-ocular distances.
+        hidden: what stands in for points that the reference hides: their mirror images, or nothing (the input stays).
+        facing: cosine between normal and view at which the reference fully shows a surface; it shows none at half of it.
+
+    Raises:
+        UsageError: the two meshes have different triangles.
+    """
+    if not np.array_equal(mesh.triangles, reference_mesh.triangles):
+        raise UsageError(
+            f"warp.mesh: the meshes differ ({len(mesh.triangles)} and {len(reference_mesh.triangles)} triangles); "
+            "use the same geometry node for both photos"
+        )
+    size = (reference_surface.coverage.shape[0], reference_surface.coverage.shape[1])
+    inside = (surface.coverage > 0.5).astype(np.float32)
+    if not inside.any():
+        warn("warp.mesh: the input's mesh covers no pixel; nothing corresponds")
+        places = np.zeros((*inside.shape, 2), np.float32)
+        return Correspondence(places, inside, np.zeros_like(inside), size)
+
+    shown = _shown_vertices(reference_surface, reference_mesh, facing)
+    places, valid = _carried(surface, reference_mesh, shown, np.arange(len(shown)), reference_mask, size)
+    if pins is not None and len(pins.points):
+        places = places + _pinned(places, pins, pin_reach * mesh.interocular)
+    mirror = _mirror_vertices(len(mesh.vertices))
+    if hidden == "input" or mirror is None:
+        if hidden == "mirror":
+            warn("warp.mesh: this mesh has no known mirror image; what the reference hides stays the input's")
+        return Correspondence(places, inside, valid, size)
+    mirrored, mirrored_valid = _carried(surface, reference_mesh, shown, mirror, reference_mask, size)
+    return Correspondence(places, inside, valid, size, mirrored, mirrored_valid * (1 - valid))
+
+
+def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.float64]:
+    """How far the reference shows each vertex, 0..1: inside the frame, turned to the viewer, nothing in front."""
+    height, width = surface.coverage.shape
+    pixels = mesh.camera.project(mesh.vertices.astype(np.float64))
+    in_frame = ((pixels >= -0.5) & (pixels <= np.array([width, height]) - 0.5)).all(axis=1)
+    x, y = (np.clip(np.rint(pixels[:, k]), 0, n - 1).astype(int) for k, n in ((0, width), (1, height)))
+    behind = np.where(surface.coverage[y, x] > 0, surface.depth[y, x] - mesh.vertices[:, 2], 0)
+    unoccluded = np.clip(2 - behind / max(0.05 * mesh.interocular, 1e-6), 0, 1)
+    turned = np.clip((mesh.normals[:, 2] / facing - 0.5) * 2, 0, 1)
+    shown: NDArray[np.float64] = in_frame * unoccluded * turned
+    return shown
+
+
+def _carried(
+    surface: Surface,
+    reference: Mesh,
+    shown: NDArray[np.float64],
+    vertex: NDArray[Any],
+    mask: Mask | None,
+    size: tuple[int, int],
+) -> tuple[FloatArray, Mask]:
+    """Places H x W x 2 and validity H x W, where vertex k of the input's mesh is vertex[k] of the reference's."""
+    positions = reference.camera.project(reference.vertices.astype(np.float64))[vertex]
+    of_vertex = np.column_stack([positions, shown[vertex]]).astype(np.float32)
+    triangles = reference.triangles
+    rows, columns = _window(surface.coverage > 0)
+    seen = surface.triangle[rows, columns]
+    weights = surface.barycentric[rows, columns]
+    carried = np.zeros((*seen.shape, 3), np.float32)
+    for k in range(3):
+        carried += weights[..., k, None] * of_vertex[triangles[:, k]].take(seen, axis=0, mode="clip")
+    places = np.zeros((*surface.coverage.shape, 2), np.float32)
+    valid = np.zeros(surface.coverage.shape, np.float32)
+    places[rows, columns] = carried[..., :2]
+    valid[rows, columns] = carried[..., 2] * (seen >= 0)
+    height, width = size
+    valid[(places < -0.5).any(axis=2) | (places[..., 0] > width - 0.5) | (places[..., 1] > height - 0.5)] = 0
+    if mask is not None:
+        valid *= _sampled(mask, places)
+    return places, valid
+
+
+def _sampled(values: FloatArray, places: FloatArray) -> FloatArray:
+    import cv2
+
+    return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
+
+
+def _window(covered: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """The bounding box of what is covered."""
+    rows, columns = np.flatnonzero(covered.any(axis=1)), np.flatnonzero(covered.any(axis=0))
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+
+
+def _mirror_vertices(count: int) -> NDArray[np.int32] | None:
+    """Which vertex each becomes in a mirror, for the meshes over the 468 points."""
+    mirror = facemesh_topology().mirror
+    return mirror if len(mirror) == count else None
+
+
+def _pinned(places: FloatArray, pins: Pins, reach: float) -> FloatArray:
+    """Corrections H x W x 2 that take every pin where it should be, Gaussian around it (Shepard's weights where many)."""
+    height, width = places.shape[:2]
+    y, x = np.ogrid[:height, :width]
+    total, weight = np.zeros_like(places), np.zeros((height, width), np.float32)
+    for px, py, rx, ry in pins.points:
+        at = places[int(np.clip(round(float(py)), 0, height - 1)), int(np.clip(round(float(px)), 0, width - 1))]
+        near = np.exp(-((x - px) ** 2 + (y - py) ** 2) / np.float32(2 * max(reach, 1e-3) ** 2)).astype(np.float32)
+        total += near[..., None] * (np.array([rx, ry], np.float32) - at)
+        weight += near
+    corrections: FloatArray = total / np.maximum(weight, 1)[..., None]
+    return corrections

@@ -1,0 +1,95 @@
+"""Values of the reference fetched to the input's pixels, each interpolated once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from graphface import node
+from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
+from graphface.nodes.warp.correspondence import Correspondence
+
+_LARGEST_CONDITION = 1.5
+"""Reference pixels per input pixel above which the reference is shrunk first, lest fine texture turn into noise."""
+
+
+@node("warp.photo")
+def photo(reference: Image, correspondence: Correspondence) -> Image:
+    """The reference photo drawn onto the input's face, alpha dropped; see `fetched`."""
+    return Image(fetched(reference.pixels, correspondence), encoding=reference.encoding)
+
+
+@node("warp.albedo")
+def albedo(reference: Albedo, correspondence: Correspondence) -> Albedo:
+    """The reference's albedo at the input's pixels; see `fetched`."""
+    return fetched(reference, correspondence)
+
+
+@node("warp.shading")
+def shading(reference: Shading, correspondence: Correspondence) -> Shading:
+    """The reference's shading at the input's pixels; see `fetched`."""
+    return fetched(reference, correspondence)
+
+
+@node("warp.detail")
+def detail(reference: DetailMap, correspondence: Correspondence) -> DetailMap:
+    """The reference's detail map, every part of it, at the input's pixels; see `fetched`."""
+    parts = {name: v for name, v in vars(reference).items() if isinstance(v, np.ndarray)}
+    return replace(reference, **{name: fetched(v, correspondence) for name, v in parts.items()})
+
+
+def fetched(values: FloatArray, correspondence: Correspondence) -> FloatArray:
+    """`values` (of the reference's size, with or without channels) at every input pixel, by cubic interpolation.
+
+    Points that the reference hides come from their mirror images, going over softly; places outside of the reference
+    repeat its edge (their validity is 0). Off the mesh the values mean nothing.
+    """
+    import cv2
+
+    rows, columns = _window(correspondence)
+    places = correspondence.places[rows, columns]
+    out = np.zeros((*correspondence.inside.shape, *values.shape[2:]), np.float32)
+    if places.size == 0:
+        return out
+    shrink = _magnification(places, correspondence.inside[rows, columns])
+    if shrink > _LARGEST_CONDITION:
+        height, width = (max(1, round(n / shrink)) for n in values.shape[:2])
+        factor = np.array([width / values.shape[1], height / values.shape[0]], np.float32)
+        values = np.asarray(cv2.resize(values, (width, height), interpolation=cv2.INTER_AREA), np.float32)
+    else:
+        factor = np.ones(2, np.float32)
+
+    def at(positions: FloatArray) -> FloatArray:
+        scaled = (positions + np.float32(0.5)) * factor - np.float32(0.5)
+        return np.asarray(
+            cv2.remap(np.ascontiguousarray(values), scaled, None, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE),
+            np.float32,
+        )
+
+    window = at(places)
+    if correspondence.mirrored is not None and correspondence.mirrored_valid is not None:
+        other = correspondence.mirrored_valid[rows, columns]
+        if other.any():
+            share = other / np.maximum(other + correspondence.valid[rows, columns], 1e-6)
+            share = share.reshape(*share.shape, *[1] * (values.ndim - 2))
+            window = window + share * (at(correspondence.mirrored[rows, columns]) - window)
+    out[rows, columns] = window
+    return out
+
+
+def _window(correspondence: Correspondence) -> tuple[slice, slice]:
+    rows = np.flatnonzero(correspondence.inside.any(axis=1))
+    columns = np.flatnonzero(correspondence.inside.any(axis=0))
+    if rows.size == 0:
+        return slice(0, 0), slice(0, 0)
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+
+
+def _magnification(places: FloatArray, inside: FloatArray) -> float:
+    """Median number of reference pixels that one step in the input crosses, over the face."""
+    both = (inside[1:, 1:] > 0) & (inside[:-1, :-1] > 0)
+    if not both.any():
+        return 1.0
+    along = places[1:, 1:] - places[:-1, :-1]
+    return float(np.median(np.hypot(along[..., 0], along[..., 1])[both])) / float(np.sqrt(2))
