@@ -11,6 +11,7 @@ imported at once, since the module of the same name would otherwise take its pla
 """
 
 import importlib
+import os.path
 from typing import TYPE_CHECKING, Any
 
 from graphface.node import Cosmetic, Needs, node
@@ -37,6 +38,12 @@ if TYPE_CHECKING:
     from graphface.values import ArrayType, Lazy
 
 __version__ = "0.1.0"
+
+# Installed, nodes/ and graphs/ lie in this package; in a checkout they stand beside it. Whoever starts Python in the
+# root of a checkout gets the package from there, and should get those with it.
+_checkout = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+if not os.path.isdir(os.path.join(__path__[0], "nodes")) and os.path.isdir(os.path.join(_checkout, "nodes")):
+    __path__.append(_checkout)
 
 _HOMES = {
     "ArrayType": "values",
