@@ -8,14 +8,19 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.types import FloatArray, Image, Intrinsic
+from graphface.nodes.intrinsic.logarithm import finite_pixels
+from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
 Intensity = Literal["mean", "luma", "value"]
 
 
 @node("intrinsic.intensity")
 def intensity(
-    photo: Image, *, measure: Intensity = "mean", floor: Annotated[float, Field(gt=0, le=1)] = 0.15
+    photo: Image,
+    mask: Mask | None = None,
+    *,
+    measure: Intensity = "mean",
+    floor: Annotated[float, Field(gt=0, le=1)] = 0.15,
 ) -> Intrinsic:
     """s(x) = intensity of I(x), rho(x) = I(x) / s(x) (paper, section 2, "Intrinsic images").
 
@@ -24,6 +29,7 @@ def intensity(
 
     Args:
         photo: in any encoding; both maps are in the same one.
+        mask: takes no part; the family has it.
         measure: "mean" of R, G and B; "luma", their Rec. 709 weighting; "value", the largest (then albedo <= 1).
         floor: the least shading. Pixels darker than it get a dark albedo instead, so that the colour noise of black is
             not blown up, and black things stay black under any light.
@@ -31,7 +37,7 @@ def intensity(
     Returns:
         `albedo` float32 H x W x 3, `shading` float32 H x W; their product is the photo.
     """
-    pixels = photo.pixels
+    pixels = finite_pixels(photo, "intrinsic.intensity")
     shading = np.maximum(_MEASURES[measure](pixels), np.float32(floor)).astype(np.float32, copy=False)
     return Intrinsic(albedo=pixels / shading[..., None], shading=shading)
 

@@ -1,0 +1,50 @@
+"""Multi-scale retinex: shading is a blur, averaged over small, middle and large surrounds."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.intrinsic.logarithm import DARKEST, finite_pixels, separated
+from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
+
+SURROUNDS = (0.03, 0.15, 0.5)
+"""Standard deviations as shares of the picture's longer side: 15, 80 and 250 of 512 pixels in the paper."""
+
+
+@node("intrinsic.multiscale_retinex")
+def multiscale_retinex(
+    photo: Image, mask: Mask | None = None, *, floor: Annotated[float, Field(gt=0, le=1)] = 0.05
+) -> Intrinsic:
+    """log s = mean over surrounds G of log (G * I), I the intensity.
+
+    Jobson, Rahman, Woodell, A Multiscale Retinex for Bridging the Gap Between Color Images and the Human Observation of
+    Scenes, IEEE TIP 1997.
+
+    Args:
+        mask: H x W, over which shading gets the mean of the intensity.
+        floor: least shading.
+
+    Returns:
+        albedo * shading is the photo.
+    """
+    pixels = finite_pixels(photo, "intrinsic.multiscale_retinex")
+    intensity = np.maximum(pixels.mean(axis=2, dtype=np.float32), 0)
+    longest = max(intensity.shape)
+    surrounds = [np.log(np.maximum(_blurred(intensity, share * longest), np.float32(DARKEST))) for share in SURROUNDS]
+    return separated(pixels, np.mean(surrounds, axis=0, dtype=np.float32), mask, floor)
+
+
+def _blurred(values: FloatArray, sigma: float) -> FloatArray:
+    """A wide Gaussian on a copy small enough that it spans a few pixels: the blur holds nothing finer."""
+    import cv2
+
+    height, width = values.shape
+    scale = min(1.0, 8 / max(sigma, 1e-3))
+    size = (max(1, round(width * scale)), max(1, round(height * scale)))
+    small = cv2.resize(values, size, interpolation=cv2.INTER_AREA)
+    blurred = cv2.GaussianBlur(small, (0, 0), max(sigma * scale, 0.1), borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(cv2.resize(blurred, (width, height), interpolation=cv2.INTER_CUBIC), np.float32)

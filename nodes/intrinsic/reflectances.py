@@ -1,0 +1,73 @@
+"""The few reflectances of `intrinsic.bell2014`: clusters of colour, with intensities that make shading continuous."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface.nodes.types import FloatArray
+
+_BRIGHTNESS = 0.5
+"""Weight of log intensity beside chromaticity in clustering, as in Bell et al.: shading alters it."""
+
+_REWEIGHTINGS = 10
+_RIDGE = 1e-3
+
+
+@dataclass(frozen=True)
+class Palette:
+    """`label` H x W; `intensities` (k,) logarithmic; `hues` (k, 3) chromaticities."""
+
+    label: NDArray[np.intp]
+    intensities: FloatArray
+    hues: FloatArray
+
+
+def clusters(intensity: FloatArray, hue: FloatArray, count: int) -> Palette:
+    """k-means on colour, started from quantiles of brightness: no random numbers, the same in every run."""
+    import cv2
+
+    points = np.concatenate([_BRIGHTNESS * intensity[..., None], 3 * hue], axis=2).reshape(-1, 4).astype(np.float32)
+    count = min(count, len(points))
+    if count < 2:
+        return Palette(np.zeros(intensity.shape, np.intp), intensity.reshape(-1)[:1], hue.reshape(-1, 3)[:1])
+    start = (np.argsort(np.argsort(points[:, 0], kind="stable"), kind="stable") * count // len(points)).astype(np.int32)
+    criteria = (cv2.TERM_CRITERIA_MAX_ITER + cv2.TERM_CRITERIA_EPS, 15, 1e-4)
+    _, label, centers = cv2.kmeans(points, count, start[:, None], criteria, 1, cv2.KMEANS_USE_INITIAL_LABELS)
+    centers = np.asarray(centers, np.float32)
+    label = np.asarray(label, np.intp).reshape(intensity.shape)
+    return Palette(label, centers[:, 0] / np.float32(_BRIGHTNESS), centers[:, 1:] / 3)
+
+
+def settled(palette: Palette, label: NDArray[np.intp], intensity: FloatArray) -> Palette:
+    """New labels, and intensities r = argmin sum |(L_i - r_i) - (L_j - r_j)| over neighbours i, j of different label.
+
+    An L1 fit by iterated reweighting; a ridge holds labels without a border where they are, and the mean.
+    """
+    count = len(palette.intensities)
+    here, there, step = _borders(label, intensity)
+    r = palette.intensities.astype(np.float64)
+    pair = here * count + there
+    for _ in range(_REWEIGHTINGS if len(step) else 0):
+        weight = 1 / np.maximum(np.abs(step - (r[there] - r[here])), 0.02)
+        links = np.bincount(pair, weight, count * count).reshape(count, count)
+        pull = np.bincount(there, weight * step, count) - np.bincount(here, weight * step, count)
+        links = links + links.T
+        degree = links.sum(axis=1)
+        ridge = _RIDGE * max(float(degree.mean()), 1e-9)
+        r = np.linalg.solve(np.diag(degree + ridge) - links, pull + ridge * palette.intensities)
+    return replace(palette, label=label, intensities=r.astype(np.float32))
+
+
+def _borders(
+    label: NDArray[np.intp], intensity: FloatArray
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+    """Labels on both sides of every border between neighbours, and the step of log intensity across it."""
+    parts = []
+    for one, other in ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:])):
+        differ = label[one] != label[other]
+        parts.append((label[one][differ], label[other][differ], (intensity[other] - intensity[one])[differ]))
+    here, there, step = (np.concatenate(part) for part in zip(*parts, strict=True))
+    return here, there, step.astype(np.float64)
