@@ -24,7 +24,10 @@ pack = Pack(
         "sh": "graphface.nodes.sh",
         "detail": " ".join(f"{_DETAIL}.{method}" for method in ("additive", "multiplicative", "none", "split")),
         "detail.edit": " ".join(f"{_DETAIL}.{edit}" for edit in ("bands", "wrinkles", "shine")),
-        "render": "graphface.nodes.render.shade graphface.nodes.render.shadows graphface.nodes.render.spread",
+        "render": "graphface.nodes.render.shade graphface.nodes.render.shadows graphface.nodes.render.spread "
+        "graphface.nodes.render.head graphface.nodes.render.skin graphface.nodes.render.specular "
+        "graphface.nodes.render.composite graphface.nodes.render.relit",
+        "scatter": "graphface.nodes.scatter.none graphface.nodes.scatter.gaussian graphface.nodes.scatter.screen_space",
         "warp": "graphface.nodes.warp.mesh graphface.nodes.warp.resample",
         "flow": " ".join(f"graphface.nodes.flow.{m}" for m in ("none", "dis", "farneback", "deepflow", "tvl1")),
         "makeup": " ".join(

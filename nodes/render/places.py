@@ -28,6 +28,12 @@ def points_seen(mesh: Mesh, surface: Surface, scale: float = 1.0) -> tuple[Float
     return points, surface.normals[v, u], covered
 
 
+def surface_points(covered: NDArray[np.bool_], surface: Surface, mesh: Mesh) -> FloatArray:
+    """The camera-frame points (n, 3) of some pixels of the surface, inter-ocular distances."""
+    v, u = np.nonzero(covered)
+    return lifted_pixels(u, v, surface.depth[v, u], mesh.camera) / np.float32(max(mesh.interocular, 1e-3))
+
+
 def lifted_pixels(u: NDArray[np.intp], v: NDArray[np.intp], depth: FloatArray, camera: Camera) -> FloatArray:
     """The camera-frame points (n, 3) at pixels (u, v) with the given z: the inverse of `Camera.project`."""
     stretch = np.maximum(1 - depth * camera.nearness, 1e-3) / max(camera.scale, 1e-9)

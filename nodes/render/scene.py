@@ -46,9 +46,9 @@ class Scene(Part):
     `exposure`; without it irradiance is taken as written, times `exposure`.
 
     `background` is the share of the new light on what is neither face nor hair. `hair` is how much of the old light
-    hair keeps at its brightest pixels, which are its highlights. `scatter` is the radius, in inter-ocular distances, over
-    which light spreads beneath the skin. `specular` is the strength of the highlights that the new lights make on the
-    skin, `roughness` their width. At background 1, hair 0, scatter 0 and specular 0 none of these is simulated.
+    hair keeps at its brightest pixels, which are its highlights. `scatter` is the radius, in inter-ocular distances,
+    over which light spreads beneath the skin. `specular` is the strength of the highlights that the new lights make on
+    the skin, `roughness` their width. At background 1, hair 0, scatter 0 and specular 0 none of these is simulated.
     """
 
     doc: str = ""

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import Lazy, Needs, node
 from graphface.nodes.colour import decode_srgb, encode_srgb
 from graphface.nodes.render.irradiance import irradiance
-from graphface.nodes.render.places import lifted_pixels
+from graphface.nodes.render.places import surface_points
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.sh import has_surface
@@ -66,7 +65,7 @@ def shade(
     old = np.maximum(decode_srgb(old) if encoded else old, 0)
     points = None
     if mesh is not None and surface is not None:
-        points = _points(covered, surface, mesh)
+        points = surface_points(covered, surface, mesh)
     visible = {} if shadows is None else {n: shadows.of(n, mask.shape)[covered] for n in shadows.lights}
     new = irradiance(scene, normals[covered], points, visible)
     if new.ndim < old.ndim:
@@ -75,13 +74,10 @@ def shade(
         old = old[:, None]
 
     weights = mask[covered]
-    unit = _mean(old, weights)
-    gain = scene.exposure * unit
+    gain = light_gain(scene, new, old, weights, floor)
     if scene.mode == "add":
         linear = old + gain * new
     else:
-        if scene.keep_mean:
-            gain /= max(_mean(new, weights), floor)
         share = scene.mix if scene.mode == "mix" else 1.0
         linear = old + share * (gain * new - old)
     shading = np.zeros((*covered.shape, *linear.shape[1:]), np.float32)
@@ -89,10 +85,12 @@ def shade(
     return shading
 
 
-def _points(covered: NDArray[np.bool_], surface: Surface, mesh: Mesh) -> FloatArray:
-    """The camera-frame points of the covered pixels, inter-ocular distances: (n, 3)."""
-    v, u = np.nonzero(covered)
-    return lifted_pixels(u, v, surface.depth[v, u], mesh.camera) / np.float32(max(mesh.interocular, 1e-3))
+def light_gain(scene: Scene, new: FloatArray, old: FloatArray, weights: FloatArray, floor: float = 0.05) -> float:
+    """What one unit of a scene's light is in the photo's linear values, so that the face is as bright as wished."""
+    gain = scene.exposure * _mean(old, weights)
+    if scene.mode != "add" and scene.keep_mean:
+        gain /= max(_mean(new, weights), floor)
+    return gain
 
 
 def _mean(irradiances: FloatArray, weights: FloatArray) -> float:

@@ -1,0 +1,105 @@
+"""Light beyond the face mesh: the rest of the head and the neck as simple solids, so that they can be lit like it.
+
+The face models end at the hairline, the jaw and the ears; a shading that merely continues there knows no neck in the
+chin's shadow and no side of the head that turns away. An ellipsoid and a cylinder of average size do, roughly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface import node, warn
+from graphface.nodes.masks.head import CRANIUM, NECK_DEPTH, NECK_RADIUS
+from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.types import Mesh
+
+_POINTS = 468
+"""The built-in meshes begin with the points of FaceMesh."""
+
+_NECK = (-0.35, -2.2)
+"""Heights between which the neck stands, in the mean face's frame; far down it is the collar's, at no harm."""
+
+_INWARD = 0.06
+"""How far the solids stay behind the face, inter-ocular distances, so that they do not poke through it."""
+
+Points = NDArray[np.float64]
+
+
+@node("render.head")
+def head(mesh: Mesh) -> Mesh:
+    """A face mesh with a cranium and a neck of average size behind it, in the face's own pose.
+
+    Args:
+        mesh: of `geometry.*`. Where its pose is not known (no fit, other points) it comes back as it is.
+
+    Returns:
+        The same mesh with vertices and triangles added at the end; camera, unit and fit are the face's.
+    """
+    pose = _pose(mesh)
+    if pose is None:
+        warn("render.head: the mesh tells no pose of the face; light beyond it is continued without a head")
+        return mesh
+    rotation, scale, middle = pose
+    parts = [_ellipsoid(*CRANIUM), _cylinder(NECK_RADIUS, NECK_DEPTH, *_NECK)]
+    vertices, normals, triangles = [mesh.vertices], [mesh.normals], [mesh.triangles]
+    count = len(mesh.vertices)
+    for points, outward, faces in parts:
+        vertices.append((middle + scale * (points - (0, 0, _INWARD)) @ rotation.T).astype(np.float32))
+        normals.append((outward @ rotation.T).astype(np.float32))
+        triangles.append((faces + count).astype(np.int32))
+        count += len(points)
+    return replace(
+        mesh,
+        vertices=np.concatenate(vertices),
+        triangles=np.concatenate(triangles),
+        normals=np.concatenate(normals),
+        uv=None if mesh.uv is None else np.concatenate([mesh.uv, np.zeros((count - len(mesh.uv), 2), np.float32)]),
+    )
+
+
+def _pose(mesh: Mesh) -> tuple[Points, float, Points] | None:
+    """Rotation, scale and origin of the mean face in the camera frame (Umeyama 1991)."""
+    if len(mesh.vertices) < _POINTS:
+        return None
+    mean = facemesh_topology().mean.astype(np.float64)
+    points = mesh.vertices[:_POINTS].astype(np.float64)
+    if not np.isfinite(points).all():
+        return None
+    from_middle, to_middle = mean.mean(axis=0), points.mean(axis=0)
+    u, sizes, vt = np.linalg.svd((points - to_middle).T @ (mean - from_middle))
+    sign = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
+    rotation = (u * sign) @ vt
+    scale = float((sizes * sign).sum() / max(np.square(mean - from_middle).sum(), 1e-12))
+    return (rotation, scale, to_middle - scale * rotation @ from_middle) if scale > 1e-6 else None
+
+
+def _ellipsoid(
+    center: tuple[float, ...], axes: tuple[float, ...], rings: int = 24, sectors: int = 48
+) -> tuple[Points, Points, NDArray[np.int64]]:
+    """Vertices, outward normals and triangles."""
+    down, around = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij")
+    unit = np.stack([np.sin(down) * np.sin(around), np.cos(down), np.sin(down) * np.cos(around)], axis=-1)
+    points = (np.asarray(center) + unit * axes).reshape(-1, 3)
+    normals = (unit / axes).reshape(-1, 3)
+    return points, normals / np.linalg.norm(normals, axis=1, keepdims=True), _grid(rings, sectors)
+
+
+def _cylinder(
+    radius: float, depth: float, top: float, bottom: float, rings: int = 8, sectors: int = 48
+) -> tuple[Points, Points, NDArray[np.int64]]:
+    height, around = np.meshgrid(
+        np.linspace(top, bottom, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij"
+    )
+    normals = np.stack([np.sin(around), np.zeros_like(around), np.cos(around)], axis=-1).reshape(-1, 3)
+    points = normals * radius + np.stack([0 * height, height, 0 * height + depth], axis=-1).reshape(-1, 3)
+    return points, normals, _grid(rings, sectors)
+
+
+def _grid(rows: int, columns: int) -> NDArray[np.int64]:
+    """Triangles of a grid of (rows + 1) x (columns + 1) points, counter-clockwise seen from outside."""
+    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).reshape(-1)
+    right, below = first + 1, first + columns + 1
+    return np.concatenate([np.stack([first, below, right], 1), np.stack([right, below, below + 1], 1)])

@@ -1,0 +1,22 @@
+"""The shading of skin: scattered where the scene asks for it."""
+
+from __future__ import annotations
+
+from graphface import Lazy, Needs, UsageError, node
+from graphface.nodes.render.scene import Scene
+from graphface.nodes.types import Shading
+
+
+def _wanted(scene: Scene) -> Needs:
+    if scene.scatter > 0:
+        return {"shading": "the scene scatters light; the scattered shading is taken", "scattered": True}
+    return {"shading": True, "scattered": "the scene scatters no light (scatter: 0)"}
+
+
+@node("render.skin", needs=_wanted)
+def skin(scene: Scene, shading: Lazy[Shading] = None, scattered: Lazy[Shading] = None) -> Shading:
+    """`scattered` where the scene scatters light beneath the skin, else `shading`."""
+    chosen = scattered if scene.scatter > 0 else shading
+    if chosen is None:
+        raise UsageError("render.skin needs the shading, and the scattered one where the scene has a scatter radius")
+    return chosen

@@ -1,0 +1,34 @@
+"""The paper's scattering: the shading, smoothed."""
+
+from __future__ import annotations
+
+from graphface import node
+from graphface.nodes.render.scene import Scene
+from graphface.nodes.scatter.change import smoothed_change
+from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
+
+
+@node("scatter.gaussian")
+def gaussian(
+    shading: Shading, estimated: Shading, surface: Surface, landmarks: Landmarks, photo: Image, scene: Scene
+) -> Shading:
+    """One Gaussian of `scene.scatter` inter-ocular distances for all colours; nothing leaks in over the silhouette.
+
+    Args:
+        shading, estimated: under the new and the photo's own light, H x W or H x W x 3, in the photo's encoding.
+
+    Returns:
+        As `shading`; grey stays grey.
+    """
+    import cv2
+
+    def blur(change: FloatArray, inside: FloatArray, unit: float) -> FloatArray:
+        sigma = scene.scatter * unit
+        if sigma < 0.3:  # less than a pixel
+            return change
+        weight = cv2.GaussianBlur(inside, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
+        sums = cv2.GaussianBlur(change * inside[..., None], (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
+        floor = weight.clip(1e-4)
+        return sums.reshape(change.shape) / floor[..., None]
+
+    return smoothed_change(shading, estimated, surface, landmarks, photo, blur)

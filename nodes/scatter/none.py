@@ -1,0 +1,15 @@
+"""No scattering: skin like plaster."""
+
+from __future__ import annotations
+
+from graphface import node
+from graphface.nodes.render.scene import Scene
+from graphface.nodes.types import Image, Landmarks, Shading, Surface
+
+
+@node("scatter.none")
+def none(
+    shading: Shading, estimated: Shading, surface: Surface, landmarks: Landmarks, photo: Image, scene: Scene
+) -> Shading:
+    """The shading as it is, for comparison."""
+    return shading

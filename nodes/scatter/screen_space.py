@@ -1,0 +1,97 @@
+"""Screen-space subsurface scattering with a skin profile.
+
+Jimenez, Sundstedt, Gutierrez, Screen-Space Perceptual Rendering of Human Skin, ACM TAP 2009: the diffusion profile of
+skin as a sum of Gaussians per channel (d'Eon, Luebke, Enderton 2007, table of a three-layer skin model), applied to the
+rendered irradiance in the picture, across at most the surface at hand. Red travels furthest: shadow edges turn warm.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.render.scene import Scene
+from graphface.nodes.scatter.change import smoothed_change
+from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
+
+PROFILE = (
+    # Variance in mm^2; weights of red, green, blue.
+    (0.0064, (0.233, 0.455, 0.649)),
+    (0.0484, (0.100, 0.336, 0.344)),
+    (0.187, (0.118, 0.198, 0.0)),
+    (0.567, (0.113, 0.007, 0.007)),
+    (1.99, (0.358, 0.004, 0.0)),
+    (7.41, (0.078, 0.0, 0.0)),
+)
+WIDEST = float(np.sqrt(PROFILE[-1][0]))
+"""Standard deviation of the widest Gaussian, mm: what `scene.scatter` sets. On a face it is 0.03 eye distances."""
+
+_NARROWEST = 0.35
+"""Standard deviation in points below which a Gaussian is as good as none."""
+
+
+@node("scatter.screen_space")
+def screen_space(
+    shading: Shading,
+    estimated: Shading,
+    surface: Surface,
+    landmarks: Landmarks,
+    photo: Image,
+    scene: Scene,
+    *,
+    depth_falloff: Annotated[float, Field(ge=0, le=1000)] = 8.0,
+) -> Shading:
+    """The change of light, spread by a skin profile whose widest Gaussian is `scene.scatter`, three channels.
+
+    Args:
+        shading, estimated: under the new and the photo's own light, H x W or H x W x 3, in the photo's encoding.
+        surface: light passes neither its silhouette nor a step in its depth.
+        depth_falloff: how fast a step in depth stops light; 1 over inter-ocular distances.
+
+    Returns:
+        float32 H x W x 3.
+    """
+    import cv2
+
+    def blur(change: FloatArray, inside: FloatArray, unit: float) -> FloatArray:
+        size = (inside.shape[1], inside.shape[0])
+        depth = np.asarray(cv2.resize(surface.depth, size, interpolation=cv2.INTER_NEAREST), np.float32)
+        depth = depth * np.float32(depth_falloff / max(landmarks.interocular, 1e-3))
+        change = np.ascontiguousarray(np.broadcast_to(change, (*change.shape[:2], 3)))
+        spread = np.zeros_like(change)
+        reached, before = change, 0.0
+        for variance, weights in PROFILE:
+            # Each Gaussian is reached from the one before it: variances add up.
+            sigma = np.sqrt(variance) / WIDEST * scene.scatter * unit
+            if sigma > _NARROWEST:
+                reached = _along(reached, inside, depth, np.sqrt(sigma * sigma - before * before))
+                before = sigma
+            spread += reached * np.asarray(weights, np.float32)
+        return spread / np.asarray(np.sum([w for _, w in PROFILE], axis=0), np.float32)
+
+    return smoothed_change(shading, estimated, surface, landmarks, photo, blur)
+
+
+def _along(change: FloatArray, inside: FloatArray, depth: FloatArray, sigma: float) -> FloatArray:
+    """A Gaussian along rows, then along columns; a tap across a step in depth counts as the middle instead."""
+    reach = min(max(1, round(2.5 * sigma)), *(max(n - 1, 0) for n in inside.shape)) if min(inside.shape) > 1 else 0
+    for axis in (1, 0):
+        total = change.copy()
+        sums = 1.0
+        for step in range(1, reach + 1):
+            weight = float(np.exp(-step * step / (2 * sigma * sigma)))
+            for shift in (step, -step):
+                kept = _shifted(inside, shift, axis) * np.maximum(1 - np.abs(_shifted(depth, shift, axis) - depth), 0)
+                total += weight * (change + kept[..., None] * (_shifted(change, shift, axis) - change))
+                sums += weight
+        change = total / np.float32(sums)
+    return change
+
+
+def _shifted(values: FloatArray, shift: int, axis: int) -> FloatArray:
+    """The neighbour at `shift` along an axis; the border repeats."""
+    index = np.clip(np.arange(values.shape[axis]) + shift, 0, values.shape[axis] - 1)
+    return values.take(index, axis=axis)
