@@ -125,13 +125,16 @@ class KeyTable:
             return False
         self._code = code
         plain: dict[tuple[Operator, int, tuple[object, ...]], bytes] = {}
+        shapes: dict[tuple[object, ...], bytes] = {}
         self._statics = []
         for step in self._steps:
             shape = tuple((a.port, a.is_list, tuple(r.fields for r in a.refs)) for a in step.arguments)
             identity = (step.operator, id(step.parameters), shape)
             if identity not in plain:
                 kept = {n: v for n, v in step.parameters.items() if n not in step.operator.cosmetic}
-                text = code[step.operator] + canonical((kept, shape))
+                if shape not in shapes:
+                    shapes[shape] = canonical(shape)
+                text = code[step.operator] + canonical(kept) + shapes[shape]
                 plain[identity] = blake2b(text, digest_size=KEY_BYTES).digest()
             self._statics.append(plain[identity])
         return True
