@@ -96,7 +96,7 @@ def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, response: FloatArray
     outside = (aggressive < 0.5) * (1 - 0.8 * response)
     low = layout.high < CHIN - 0.35
     belief[..., BACKDROP] = outside * ~low
-    belief[..., CLOTHES] = low & ((aggressive < 0.5) | (layout.high < CHIN - 0.9))
+    belief[..., CLOTHES] = low * np.maximum(outside, 0.5 * (layout.high < CHIN - 0.9) * (np.abs(layout.right) < 0.8))
     belief[..., HAIR] = response * ((layout.head < 0) & (layout.high > EYE_LINE - 0.3) & ~sure)
     belief[..., FACE] = sure
     return belief

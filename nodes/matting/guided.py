@@ -1,0 +1,124 @@
+"""Soft edges by the guided filter: inside every small window alpha is a linear function of the colour.
+
+He and Sun, Fast Guided Filter, 2015: the linear functions are found on a small picture, where they cost little, and
+applied to the large one, where they find its edges.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
+
+
+@node("matting.guided")
+def guided(
+    photo: Image,
+    labels: Segmentation,
+    landmarks: Landmarks,
+    *,
+    radius: Annotated[float, Field(gt=0, le=2)] = 0.06,
+    ridge: Annotated[float, Field(ge=1e-8, le=1)] = 1e-4,
+    resolution: Annotated[int, Field(ge=8, le=1024)] = 80,
+) -> Segmentation:
+    """The labels, drawn to the edges of the photo.
+
+    Args:
+        photo: the guide. labels: soft labels; where one is certain over a window it stays so.
+        radius: half the window's side, in inter-ocular distances.
+        ridge: variance of colour below which there is no edge.
+        resolution: pixels per inter-ocular distance that the linear functions are found at.
+    """
+    import cv2
+
+    unit = max(landmarks.interocular, 1e-3)
+    guide = np.clip(np.nan_to_num(photo.pixels), 0, 1).astype(np.float32, copy=False)
+    part = _busy(labels, round(2 * radius * unit) + 2)
+    if part is None:
+        return labels
+    guide = guide[part]
+    alphas = np.stack([labels.face[part], labels.hair[part]], axis=2)
+    height, width = guide.shape[:2]
+    scale = min(1.0, resolution / unit)
+    size = (max(1, round(width * scale)), max(1, round(height * scale)))
+    small_guide, small_alphas = (cv2.resize(a, size, interpolation=cv2.INTER_AREA) for a in (guide, alphas))
+    side = 2 * max(1, round(radius * unit * scale)) + 1
+    functions = _linear_functions(small_guide, small_alphas.reshape(*size[::-1], 2), side, ridge)
+    out = np.stack([labels.face, labels.hair, labels.background], axis=2)
+    out[part][..., :2] = _applied(functions, guide)
+    face, hair = (np.clip(out[..., k], 0, 1) for k in (0, 1))
+    total = np.maximum(face + hair, 1)
+    face, hair = face / total, hair / total
+    return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
+
+
+def _busy(labels: Segmentation, margin: int) -> tuple[slice, slice] | None:
+    """The rectangle outside of which everything is background, None where there is nothing else."""
+    something = labels.background < 1 - 1e-4
+    rows, columns = np.flatnonzero(something.any(axis=1)), np.flatnonzero(something.any(axis=0))
+    if not len(rows):
+        return None
+    spans = [slice(max(0, int(i[0]) - margin), int(i[-1]) + 1 + margin) for i in (rows, columns)]
+    return spans[0], spans[1]
+
+
+def _linear_functions(guide: FloatArray, alphas: FloatArray, side: int, ridge: float) -> FloatArray:
+    """For each pixel and alpha the function colour . a + b, averaged over the windows it lies in: h x w x 2 x 4."""
+    mean_guide, mean_alphas = _boxed(guide, side), _boxed(alphas, side)
+    products = _boxed((guide[..., :, None] * guide[..., None, :]).reshape(*guide.shape[:2], 9), side)
+    covariance = products.reshape(*guide.shape[:2], 3, 3) - mean_guide[..., :, None] * mean_guide[..., None, :]
+    covariance += ridge * np.eye(3, dtype=np.float32)
+    crossed = _boxed((guide[..., :, None] * alphas[..., None, :]).reshape(*guide.shape[:2], 6), side)
+    crossed = crossed.reshape(*guide.shape[:2], 3, 2) - mean_guide[..., :, None] * mean_alphas[..., None, :]
+    slopes = _solved(covariance, crossed)
+    offsets = mean_alphas - np.einsum("hwcl,hwc->hwl", slopes, mean_guide)
+    functions = np.concatenate([np.moveaxis(slopes, 3, 2), offsets[..., None]], axis=3)
+    return _boxed(functions.reshape(*guide.shape[:2], 8), side)
+
+
+def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
+    """Symmetric positive 3 x 3 systems at every pixel, by cofactors in float64."""
+    m = np.moveaxis(matrices.astype(np.float64), (2, 3), (0, 1))
+    cofactors = np.empty_like(m)
+    for i in range(3):
+        for j in range(3):
+            (a, b), (c, d) = [((i + 1) % 3, (i + 2) % 3), ((j + 1) % 3, (j + 2) % 3)]
+            cofactors[i, j] = m[a, c] * m[b, d] - m[a, d] * m[b, c]
+    determinant = (m[0] * cofactors[0]).sum(axis=0)
+    solved: NDArray[np.float64] = np.einsum("jihw,hwjl->hwil", cofactors, right)
+    return (solved / np.maximum(determinant, 1e-30)[..., None, None]).astype(np.float32)
+
+
+def _applied(functions: FloatArray, guide: FloatArray) -> FloatArray:
+    """The functions enlarged to the guide and applied to its colours, in strips that stay in the cache: H x W x 2."""
+    import cv2
+
+    height, width = guide.shape[:2]
+    planes = [
+        cv2.resize(np.ascontiguousarray(functions[..., k]), (width, height), interpolation=cv2.INTER_LINEAR)
+        for k in range(8)
+    ]
+    channels = [np.ascontiguousarray(guide[..., c]) for c in range(3)]
+    alphas = np.empty((height, width, 2), np.float32)
+    for k in range(2):
+        alpha = planes[4 * k + 3]
+        for c in range(3):
+            alpha += planes[4 * k + c] * channels[c]
+        alphas[..., k] = alpha
+    return alphas
+
+
+def _boxed(values: FloatArray, side: int) -> FloatArray:
+    """Means over square windows; OpenCV filters at most four channels at a time."""
+    import cv2
+
+    planes = [
+        cv2.blur(np.ascontiguousarray(values[..., k : k + 4]), (side, side), borderType=cv2.BORDER_REFLECT)
+        for k in range(0, values.shape[2], 4)
+    ]
+    return np.concatenate([p.reshape(*values.shape[:2], -1) for p in planes], axis=2)

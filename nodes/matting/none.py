@@ -1,0 +1,12 @@
+"""No matting: labels as soft as the classifiers left them."""
+
+from __future__ import annotations
+
+from graphface import node
+from graphface.nodes.types import Image, Landmarks, Segmentation
+
+
+@node("matting.none")
+def none(photo: Image, labels: Segmentation, landmarks: Landmarks) -> Segmentation:
+    """The labels, unchanged."""
+    return labels
