@@ -23,8 +23,7 @@ def multiband(
     """
     import cv2
 
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    if rows.size == 0:
+    if not mask.any():
         return base
     levels = max(1, min(8, round(np.log2(max(reach * landmarks.interocular, 2)))))
     levels = min(levels, max(1, int(np.log2(max(min(mask.shape), 2)))))

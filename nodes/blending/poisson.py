@@ -29,8 +29,8 @@ def poisson(
 ) -> Image:
     """The layer inside of the mask's edge, its gradients across it.
 
-    With h = layer - base, the correction c that is added to the layer solves laplace(c) = k c inside, c = -h on the edge;
-    it is smooth, so it is solved on a small copy.
+    With h = layer - base, the correction c that is added to the layer solves laplace(c) = k c inside, and c = -h on the
+    edge. It is smooth, so it is solved on a small copy.
 
     Args:
         reach: distance over which the edge's influence falls to 1/e, in inter-ocular distances.

@@ -33,7 +33,7 @@ def core(
     correspondence: Correspondence,
     landmarks: Landmarks,
     *,
-    shrink: Annotated[float, Field(ge=0, le=1)] = 0.06,
+    shrink: Annotated[float, Field(ge=0, le=1)] = 0.03,
     softness: Annotated[float, Field(ge=0, le=1)] = 0.06,
 ) -> Mask:
     """Where the painted face is taken as it is: inside the mesh, off its rim, on skin that the reference shows.
@@ -46,13 +46,25 @@ def core(
     import cv2
 
     unit = max(landmarks.interocular, 1e-3)
-    usable = ((correspondence.inside > 0) & (correspondence.known > 0.5) & (skin > 0.5) & (mask > 0)).astype(np.uint8)
+    usable = (correspondence.inside > 0) & (correspondence.known > 0.5) & (skin > 0.5) & (mask > 0)
+    usable = _without_holes(usable, 0.3 * unit).astype(np.uint8)
     if not usable.any():
         warn("makeup.core: no pixel of the input's face has a counterpart in the reference; nothing is painted")
         return np.zeros_like(mask)
     depth = cv2.distanceTransform(usable, cv2.DIST_L2, 5) - 0.5
     t = np.clip((depth - shrink * unit) / max(softness * unit, 1.0), 0, 1)
     return np.asarray(t * t * (3 - 2 * t), np.float32)
+
+
+def _without_holes(usable: NDArray[np.bool_], width: float) -> NDArray[np.bool_]:
+    """Enclosed gaps filled, up to a width: a fold that hides itself (nostril, corner of the mouth) is painted along."""
+    import cv2
+
+    _, label, stats, _ = cv2.connectedComponentsWithStats((~usable).astype(np.uint8), connectivity=4)
+    small = stats[:, cv2.CC_STAT_AREA] <= width * width
+    small[0] = False
+    filled: NDArray[np.bool_] = usable | small[label]
+    return filled
 
 
 @node("makeup.boundary")
@@ -63,7 +75,7 @@ def boundary(
     features: Features,
     landmarks: Landmarks,
     *,
-    ring: Annotated[float, Field(ge=0, le=2)] = 0.25,
+    ring: Annotated[float, Field(ge=0, le=2)] = 0.15,
     resolution: Annotated[int, Field(ge=8, le=256)] = 64,
 ) -> Image:
     """The painted face, continued over the whole picture.
@@ -90,15 +102,39 @@ def boundary(
     known = weight >= min(0.5, float(weight.max()))
     parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows)
     bare = known & (small(np.maximum.reduce(parts)) < 0.1)
-    whole = np.median(change[bare if bare.any() else known], axis=0).astype(np.float32)
-    continued = _continued(np.clip(change, -_MOST, _MOST), known, whole, max(ring * unit, 1e-3), unit)
+    bare = bare if bare.any() else known
+    change = np.clip(change, -_MOST, _MOST)
+    around = _averaged(change, bare, 0.4 * unit)
+    change[known & ~bare] = around[known & ~bare]  # lips and brows have no place in the ring
+    continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
     factor = np.exp(cv2.resize(continued, core.shape[::-1], interpolation=cv2.INTER_LINEAR))
-    beyond = (photo.pixels + np.float32(_FLOOR)) * factor - np.float32(_FLOOR)
+    # What shines more than skin does is no skin colour: it moves with the skin, and is not multiplied.
+    matte = np.minimum(photo.pixels, np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32))
+    beyond = photo.pixels + _limited((matte + np.float32(_FLOOR)) * (factor - 1), photo.pixels)
     return photo.with_pixels(beyond + core[..., None] * (painted.pixels - beyond))
 
 
-def _continued(change: FloatArray, known: NDArray[np.bool_], whole: FloatArray, ring: float, unit: float) -> FloatArray:
-    """The change, mirrored at the boundary within `ring` pixels of it, then going over into that of the whole skin."""
+def _limited(change: FloatArray, pixels: FloatArray) -> FloatArray:
+    """The change, bent to stay within the room that each value has left; small changes pass as they are."""
+    room = np.maximum(np.where(change > 0, 1 - pixels, pixels), np.float32(1e-4))
+    share = np.square(change / room)
+    return np.asarray(change / np.sqrt(np.sqrt(1 + np.square(share))), np.float32)
+
+
+def _averaged(change: FloatArray, bare: NDArray[np.bool_], reach: float) -> FloatArray:
+    """The change of the bare skin around every pixel; far from the face, of all of it."""
+    import cv2
+
+    whole = np.median(change[bare], axis=0).astype(np.float32)
+    near = np.dstack([np.where(bare[..., None], change - whole, 0), bare.astype(np.float32)])
+    near = cv2.GaussianBlur(near, (0, 0), max(reach, 0.5), borderType=cv2.BORDER_CONSTANT)
+    return np.asarray(whole + near[..., :3] / (near[..., 3:] + np.float32(0.05)), np.float32)
+
+
+def _continued(
+    change: FloatArray, known: NDArray[np.bool_], around: FloatArray, ring: float, unit: float
+) -> FloatArray:
+    """The change, mirrored at the boundary within `ring` pixels of it, then going over into that of the skin around."""
     import cv2
 
     distance, label = cv2.distanceTransformWithLabels(
@@ -110,11 +146,11 @@ def _continued(change: FloatArray, known: NDArray[np.bool_], whole: FloatArray, 
     nearest = at[label]
     mirrored = 2 * nearest - np.dstack([x, y])
     inside = cv2.remap(known.astype(np.float32), mirrored, None, cv2.INTER_LINEAR, borderValue=0)[..., None]
-    values = np.where(known[..., None], change, whole)
+    values = np.where(known[..., None], change, around)
     reflected = cv2.remap(values, mirrored, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     edge = cv2.remap(values, nearest, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     reflected = edge + np.clip(inside * 2 - 1, 0, 1) * (reflected - edge)
     near = cv2.GaussianBlur(np.where(known[..., None], change, reflected), (0, 0), max(0.03 * unit, 0.5))
     t = np.clip(distance / ring, 0, 1)[..., None]
     t = t * t * (3 - 2 * t)
-    return np.asarray(near + t * (whole - near), np.float32)
+    return np.asarray(near + t * (around - near), np.float32)

@@ -1,9 +1,9 @@
 """The blended detail map I_d^b(i, r) (paper, section "Makeup Transfer").
 
 What makes a face its owner's is relief, and relief is fine: the line between the lips, the wings of the nose, the folds
-of the lids. What makes up a face is broad: the darkness of a lipstick, a stripe. Around eyes, nose and mouth the input's
-fine detail therefore sits on the reference's broad detail; in the openings all of it is the input's; elsewhere, the
-reference's (caking, powder and smears are what real makeup looks like).
+of the lids. What makes up a face is broad: the darkness of a lipstick, a stripe. Around eyes, nose and mouth the
+input's fine detail therefore sits on the reference's broad detail; in the openings all of it is the input's; elsewhere,
+the reference's (caking, powder and smears are what real makeup looks like).
 """
 
 from __future__ import annotations
@@ -65,13 +65,13 @@ def detail(
         own, other = getattr(detail, name), getattr(reference, name)
         if own is not None or other is not None:
             neutral = np.zeros if name == "offset" else np.ones
-            own, other = (v if v is not None else neutral(keep.shape + (3,), np.float32) for v in (own, other))
+            own, other = (v if v is not None else neutral((*keep.shape, 3), np.float32) for v in (own, other))
             parts[name] = _blended(own, other, keep, opening, sigma)
     return replace(reference, **parts)
 
 
 def _blended(own: FloatArray, other: FloatArray, keep: Mask, opening: Mask, sigma: float) -> FloatArray:
-    """other + keep * (fine(own) - fine(other)), and `own` in the openings. The fine part is linear: one blur will do."""
+    """other + keep * (fine(own) - fine(other)), and `own` in the openings. Taking the fine part is linear: one blur."""
     import cv2
 
     rows, columns = np.flatnonzero(keep.any(axis=1)), np.flatnonzero(keep.any(axis=0))

@@ -33,7 +33,7 @@ NOSE = (168, 122, 174, 198, 209, 49, 64, 98, 97, 2, 326, 327, 294, 279, 429, 420
 
 @dataclass(frozen=True)
 class Features:
-    """Masks H x W: the openings `eyes` and `mouth`, and `lips` (without the mouth), `lids`, `brows`, `nose`, `cheeks`."""
+    """Masks H x W: the openings `eyes` and `mouth`; `lips` without the mouth, `lids`, `brows`, `nose`, `cheeks`."""
 
     eyes: Mask
     mouth: Mask

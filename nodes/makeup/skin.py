@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.makeup.features import Features
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask, Surface
 
-_CHEEKS_AND_NOSE = (50, 280, 205, 425, 117, 346, 4, 195, 101, 330, 36, 266)
 _NOISE = 0.02
 
 
@@ -20,16 +20,17 @@ def skin(
     photo: Image,
     surface: Surface,
     landmarks: Landmarks,
+    features: Features,
     given: Mask | None = None,
     *,
     spread: Annotated[float, Field(gt=0, le=20)] = 3.5,
     resolution: Annotated[int, Field(ge=16, le=256)] = 64,
 ) -> Mask:
-    """Skin of the face, ears and neck: pixels coloured like the cheeks, connected with the face, not far from it.
+    """Skin of the face, ears and neck: pixels coloured like the face, connected with the face, not far from it.
 
     Args:
         given: a segmentation's face label, or a user's mask; it is returned as it is.
-        spread: deviations from the cheeks' colour at which a pixel is half skin.
+        spread: deviations from the face's colour at which a pixel is half skin.
         resolution: pixels per inter-ocular distance of the copy that is decided on; edges then follow the photo.
     """
     import cv2
@@ -45,13 +46,16 @@ def skin(
 
     covered = small(surface.coverage)
     colours = _log_opponent(small(photo.pixels))
-    sample = _around(landmarks.points[list(_CHEEKS_AND_NOSE), :2] * scale, covered, radius=0.12 * unit * scale)
+    parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows)
+    deep = _deep(covered, unit * scale)
+    sample = (deep > 0.5) & (small(np.maximum.reduce(parts)) < 0.1)
     if sample.sum() < 12:
-        warn("makeup.skin: too few pixels on the cheeks to learn the skin's colour; the mesh alone decides")
+        warn("makeup.skin: too few pixels of bare skin to learn the skin's colour; the mesh alone decides")
         return surface.coverage
     apart = _mahalanobis(colours, colours[sample])
     like = 1 / (1 + np.exp(np.clip(2 * (apart - spread), -30, 30)))
-    likely = np.where(covered > 0.5, np.maximum(like, _facial(covered, unit * scale)), like)
+    facial = np.maximum(deep, np.minimum(2 * small(np.maximum.reduce(parts)), 1))
+    likely = np.where(covered > 0.5, np.maximum(_closed(like, 0.1 * unit * scale), facial), like)
     likely = cv2.GaussianBlur(likely.astype(np.float32), (0, 0), max(0.03 * unit * scale, 0.5))
     likely *= _near(covered > 0.5, unit * scale)
     connected = _connected(likely > 0.5, covered > 0.5)
@@ -67,16 +71,6 @@ def _log_opponent(pixels: FloatArray) -> FloatArray:
     return np.dstack([logs.mean(axis=2) / 3, logs[..., 0] - logs[..., 1], logs[..., 2] - logs[..., 1]])
 
 
-def _around(points: FloatArray, covered: FloatArray, radius: float) -> NDArray[np.bool_]:
-    import cv2
-
-    drawn = np.zeros(covered.shape, np.uint8)
-    for x, y in points[np.isfinite(points).all(axis=1)]:
-        cv2.circle(drawn, (round(float(x)), round(float(y))), max(1, round(radius)), 1, -1)
-    sample: NDArray[np.bool_] = (drawn > 0) & (covered > 0.5)
-    return sample
-
-
 def _mahalanobis(colours: FloatArray, sample: FloatArray) -> FloatArray:
     """Distance of every pixel from the sample's median colour, in its deviations (ridged by the sensor's noise)."""
     middle = np.median(sample, axis=0)
@@ -88,12 +82,20 @@ def _mahalanobis(colours: FloatArray, sample: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(np.maximum(squared, 0)), np.float32)
 
 
-def _facial(covered: FloatArray, unit: float) -> FloatArray:
+def _deep(covered: FloatArray, unit: float) -> FloatArray:
     """1 deep inside the mesh, whatever is painted there, falling to 0 over the outer rim, where hair may hang."""
     import cv2
 
-    depth = cv2.distanceTransform((covered > 0.5).astype(np.uint8), cv2.DIST_L2, 5)
-    return np.asarray(np.clip(depth / max(0.3 * unit, 1.0) - 0.3, 0, 1), np.float32)
+    depth = cv2.distanceTransform((covered > 0.5).astype(np.uint8), cv2.DIST_L2, 5) / max(unit, 1e-3)
+    return np.asarray(np.clip((depth - 0.12) / 0.12, 0, 1), np.float32)
+
+
+def _closed(like: FloatArray, radius: float) -> FloatArray:
+    """Thin gaps filled: a stripe of paint is narrower than what hangs into a face."""
+    import cv2
+
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * max(1, round(radius)) + 1,) * 2)
+    return np.asarray(cv2.morphologyEx(like.astype(np.float32), cv2.MORPH_CLOSE, kernel), np.float32)
 
 
 def _near(face: NDArray[np.bool_], unit: float) -> FloatArray:

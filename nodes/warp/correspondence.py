@@ -17,7 +17,7 @@ from graphface.nodes.types import FloatArray, Mask
 class Correspondence:
     """Input pixel to reference pixel.
 
-    `places` float32 H x W x 2: (x, y) in the reference, of the input's size, continued beyond the mesh; `inside` H x W: 1
+    `places` float32 H x W x 2, of the input's size: (x, y) in the reference, 0 off the mesh; `inside` H x W: 1
     where the input's mesh lies; `valid` H x W: how far the reference shows the point at that place. Where it does not,
     `mirrored` (H x W x 2, or None) is the place of the point's mirror image on the other half of the face, as far as
     `mirrored_valid` says. `size` is the reference's (height, width).

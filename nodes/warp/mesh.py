@@ -1,4 +1,4 @@
-"""Correspondence through two aligned meshes (paper, section 2, "Face geometry"): the same triangle, the same weights."""
+"""Correspondence through two aligned meshes (paper, "Face geometry"): the same triangle, the same weights."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def mesh(
         reference_mask: what of the reference may be taken, its skin; without it all of its mesh.
         pins: correspondences set by hand; their corrections fade out over `pin_reach` inter-ocular distances.
         hidden: what stands in for points that the reference hides: their mirror images, or nothing (the input stays).
-        facing: cosine between normal and view at which the reference fully shows a surface; it shows none at half of it.
+        facing: cosine between normal and view at which the reference fully shows a surface; at half of it, not at all.
 
     Raises:
         UsageError: the two meshes have different triangles.
@@ -73,7 +73,7 @@ def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.f
     in_frame = ((pixels >= -0.5) & (pixels <= np.array([width, height]) - 0.5)).all(axis=1)
     x, y = (np.clip(np.rint(pixels[:, k]), 0, n - 1).astype(int) for k, n in ((0, width), (1, height)))
     behind = np.where(surface.coverage[y, x] > 0, surface.depth[y, x] - mesh.vertices[:, 2], 0)
-    unoccluded = np.clip(2 - behind / max(0.05 * mesh.interocular, 1e-6), 0, 1)
+    unoccluded = np.clip(2 - behind / max(0.12 * mesh.interocular, 1e-6), 0, 1)
     turned = np.clip((mesh.normals[:, 2] / facing - 0.5) * 2, 0, 1)
     shown: NDArray[np.float64] = in_frame * unoccluded * turned
     return shown
@@ -127,7 +127,7 @@ def _mirror_vertices(count: int) -> NDArray[np.int32] | None:
 
 
 def _pinned(places: FloatArray, pins: Pins, reach: float) -> FloatArray:
-    """Corrections H x W x 2 that take every pin where it should be, Gaussian around it (Shepard's weights where many)."""
+    """Corrections H x W x 2 that take every pin where it should be, Gaussian around it (Shepard's weights)."""
     height, width = places.shape[:2]
     y, x = np.ogrid[:height, :width]
     total, weight = np.zeros_like(places), np.zeros((height, width), np.float32)
