@@ -12,7 +12,7 @@ every operator, so they are stated once, here:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -102,6 +102,7 @@ Depth = Annotated[
 Albedo = Annotated[FloatArray, _map("Albedo", "H W 3", "Reflectance: colour over shading.", _picture_albedo, low=0)]
 Shading = Annotated[FloatArray, _map("Shading", "...", "Irradiance, H x W or H x W x 3.", _picture_unit, low=0)]
 Detail = Annotated[FloatArray, _map("Detail", "H W 3", "What rendering leaves over, signed.", _picture_signed)]
+Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; zero: none.")]
 Gain = Annotated[FloatArray, _map("Gain", "H W 3", "What rendering falls short of, as a factor.", _picture_gain, low=0)]
 
 
@@ -320,8 +321,8 @@ class Intrinsic:
 class DetailMap:
     """What the photo has and rendering lacks: photo = gain * rendering + offset.
 
-    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is all
-    `gain`. Whoever recombines (`graphface.nodes.detail.applied`) needs not know which method it was.
+    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is
+    all `gain`. Whoever recombines (`graphface.nodes.detail.applied`) needs not know which method it was.
 
     Where there is a `pivot`, the gain holds up to that rendering and light beyond it adds as it is:
     photo = gain * min(rendering, pivot) + max(rendering - pivot, 0) + offset.
@@ -351,8 +352,10 @@ class Lighting:
 
 @dataclass(frozen=True)
 class LightingFit:
-    """A fitted light, with `residual` (H x W, shading minus fit inside the mask, else 0) and the solve's condition."""
+    """A fitted light, with `residual` (H x W, shading minus fit inside the mask, else 0), the solve's condition, and
+    the unit `direction` towards most of the light, (0, 0, 0) where it comes evenly."""
 
     light: Lighting
     residual: Shading
     condition: float
+    direction: Direction = field(default_factory=lambda: np.zeros(3, np.float32))

@@ -1,0 +1,23 @@
+"""Shading of normals under a spherical-harmonic light."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphface import node
+from graphface.nodes.sh.harmonics import basis, has_surface
+from graphface.nodes.types import Lighting, Normals, Shading
+
+
+@node("sh.render")
+def render(light: Lighting, normals: Normals) -> Shading:
+    """The shading of a surface under a light: sum_i c_i Y_i(n), never below 0; 0 where there is no surface.
+
+    Returns:
+        float32, H x W, or H x W x 3 for a coloured light.
+    """
+    covered = has_surface(normals)
+    values = basis(normals[covered], light.order) @ light.coefficients
+    shading = np.zeros((*covered.shape, *light.coefficients.shape[1:]), np.float32)
+    shading[covered] = np.maximum(values, 0)
+    return shading
