@@ -7,6 +7,7 @@ from graphface import Pack
 
 _TYPES = "graphface.nodes.types"
 _INTRINSIC = ("intensity", "retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
+_MASKS = "graphface.nodes.masks"
 _DETAIL = "graphface.nodes.detail"
 
 pack = Pack(
@@ -18,8 +19,13 @@ pack = Pack(
         "landmarks": "graphface.nodes.landmarks.facemesh graphface.nodes.landmarks.given",
         "geometry": "graphface.nodes.morphable.facemesh graphface.nodes.morphable.morphable",
         "person": "graphface.nodes.morphable.morphable",
-        "surface": "graphface.nodes.render.surface",
-        "masks": "graphface.nodes.masks.face",
+        "surface": "graphface.nodes.render.surface graphface.nodes.projection.coordinates",
+        "texture": "graphface.nodes.projection.texture",
+        "overlay": "graphface.nodes.projection.overlay",
+        "export": "graphface.nodes.projection.export",
+        "masks": " ".join(f"{_MASKS}.{m}" for m in ("face", "geometric", "features", "hair", "classify", "override")),
+        "matting": " ".join(f"graphface.nodes.matting.{m}" for m in ("none", "guided", "closed_form", "knn")),
+        "regions": "graphface.nodes.regions",
         "intrinsic": " ".join(f"graphface.nodes.intrinsic.{method}" for method in _INTRINSIC),
         "sh": " ".join(f"graphface.nodes.sh.{m}" for m in ("fitting", "rendering", "rotation", "environment", "ball")),
         "detail": " ".join(f"{_DETAIL}.{method}" for method in ("additive", "multiplicative", "none", "split")),
@@ -62,11 +68,16 @@ pack = Pack(
                 "Surface",
             )
         },
+        "FaceCoordinates": "graphface.nodes.projection.coordinates:FaceCoordinates",
+        "Visibility": "graphface.nodes.projection.coordinates:Visibility",
+        "Texture": "graphface.nodes.projection.texture:Texture",
+        "TexturedMesh": "graphface.nodes.projection.export:TexturedMesh",
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
         "Correspondence": "graphface.nodes.warp.correspondence:Correspondence",
         "Features": "graphface.nodes.makeup.features:Features",
         "Pins": "graphface.nodes.warp.correspondence:Pins",
         "Environment": "graphface.nodes.envmap:Environment",
+        "Regions": "graphface.nodes.regions:Regions",
         "Scene": "graphface.nodes.render.scene:Scene",
         "Shadows": "graphface.nodes.render.visibility:Shadows",
     },

@@ -267,6 +267,12 @@ class Mesh:
     uv: FloatArray | None = None
     fit: FitRecord | None = None
 
+    @staticmethod
+    def to_file(mesh: Mesh, path: Path) -> None:
+        from graphface.nodes.projection.export import write_mesh
+
+        write_mesh(mesh, path)
+
 
 @dataclass(frozen=True)
 class Surface:

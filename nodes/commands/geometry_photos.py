@@ -51,7 +51,7 @@ def pose_photos(folder: Path, model: MorphableModel) -> Iterator[PhotoFit]:
         raise UnreadableFile(folder, "holds no .mat with 68 points")
     for file in files:
         data = loadmat(file)
-        yield _fitted(file.stem, data["pt3d_68"].T, model, float(np.degrees(data["Pose_Para"][0, 1])), slide=False)
+        yield _fitted(file.stem, data["pt3d_68"].T, model, -float(np.degrees(data["Pose_Para"][0, 1])), slide=False)
 
 
 def automatic_photos(folder: Path, model: MorphableModel, every: int = 1) -> Iterator[PhotoFit]:
