@@ -46,6 +46,14 @@ def run(
         bool, typer.Option("--peaks", help="Measure each node's peak of memory for --trace: one thread, slower.")
     ] = False,
     times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
+    maps: Annotated[
+        list[str],
+        typer.Option(
+            "--map",
+            metavar="NAME=FOLDER",
+            help="Run for every file of a folder or pattern; name them in -o {NAME}.png.",
+        ),
+    ] = [],  # noqa: B006
 ) -> None:
     """Run a graph: [bold]graphface run relight -i photo=portrait.jpg -o relit.png[/bold]"""
     import os
@@ -63,6 +71,13 @@ def run(
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     given = read_inputs(inputs)
+    if maps:
+        if trace is not None or peaks:
+            raise UsageError("--trace and --peaks follow one run; leave them out with --map")
+        run_map(
+            loaded, output, given, maps, threads=threads or os.cpu_count() or 1, guard=guard, cache=cache, times=times
+        )
+        return
     files = output_files(loaded, output, given)
     for path in (*files.values(), *([trace] if trace else [])):
         check_folder(path)
@@ -89,6 +104,80 @@ def run(
     print_warnings([*result.warnings, *said])
     if times:
         print_times(result.records)
+
+
+def run_map(
+    graph: Graph,
+    output: list[str],
+    given: dict[str, str],
+    maps: list[str],
+    *,
+    threads: int,
+    guard: str,
+    cache: Path | None,
+    times: bool,
+) -> None:
+    """Every combination of the mapped files, one evaluator for all of them; each output as soon as it is there.
+
+    Raises:
+        UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
+    """
+    from graphface.cache.memory import MemoryTier
+    from graphface.evaluate import Evaluator
+    from graphface.mapping import MapFailed, read_maps, run_over
+    from graphface.outputs import check_folder, write_output
+    from graphface.provenance import provenance
+    from graphface.terminal import ProgressBar, print_times, print_warnings
+
+    over = read_maps(maps)
+    _check_distinct(graph, output, given, over)
+    targets = graph.targets(output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}}))
+    said: list[str] = []
+    failed, records, total = [], [], 0
+    with ProgressBar() as bar:
+        evaluator = Evaluator(
+            memory=MemoryTier(),
+            disk=open_cache(cache, said),
+            threads=threads,
+            guard=guard,  # type: ignore[arg-type]
+            observers=[bar],
+        )
+        for made in run_over(graph, evaluator, over, given, targets):
+            total += 1
+            if made.result is None:
+                failed.append(made)
+                continue
+            for name, path in output_files(graph, output, made.inputs).items():
+                check_folder(path)
+                write_output(made.result[name], graph.type_of(targets[name]), path, text=provenance(graph))
+            records += made.result.records
+            said += [w for w in made.result.warnings if w not in said]
+    print_warnings(said)
+    if times:
+        print_times(records, title=f"{total} combinations")
+    if failed:
+        raise MapFailed(failed, total)
+
+
+def _check_distinct(graph: Graph, output: list[str], given: dict[str, str], over: dict[str, list[str]]) -> None:
+    """Refuse before anything runs what would write a file twice or into a folder that is not there."""
+    import itertools
+
+    from graphface.errors import UsageError
+    from graphface.outputs import check_folder
+
+    seen: dict[Path, tuple[str, ...]] = {}
+    for values in itertools.product(*over.values()):
+        for path in output_files(graph, output, {**given, **dict(zip(over, values, strict=True))}).values():
+            if path in seen:
+                places = " ".join("{" + name + "}" for name in over)
+                raise UsageError(
+                    f"{path}: would be written for {', '.join(seen[path])} and for {', '.join(values)}; "
+                    f"name the mapped inputs in -o ({places}), and give their files different names"
+                )
+            seen[path] = values
+    for folder in {path.parent for path in seen}:
+        check_folder(folder / "result")
 
 
 def output_files(graph: Graph, asked: list[str], given: dict[str, str]) -> dict[str, Path]:
