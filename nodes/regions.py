@@ -1,0 +1,150 @@
+"""The nine regions of detail transfer, and the eyes, nose and mouth that makeup leaves alone.
+
+Regions are drawn once, on the mean face seen from the front, as soft masks in its own coordinates (`atlas`). The 468
+points say which place of the mean face every pixel of a photo shows, so one look-up projects all regions to any face, whatever
+its pose and expression. Left and right are the person's own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import cache
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.morphable.facemesh import facemesh
+from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.render.surface import rasterize
+from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
+
+Softness = Annotated[float, Field(ge=0.01, le=0.5)]
+
+SIDE, REACH = 384, 1.2
+"""Pixels of the atlas' side, and the mean face's coordinate at its edge, inter-ocular distances."""
+
+RIGHT_BROW = (70, 63, 105, 66, 107, 55, 65, 52, 53, 46)
+RIGHT_EYE = (33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7)
+NOSE = (168, 193, 122, 196, 236, 198, 209, 129, 64, 98, 97, 2, 326, 327, 294, 358, 429, 420, 456, 419, 351, 417)
+MOUTH = (61, 185, 40, 39, 37, 0, 267, 269, 270, 409, 291, 375, 321, 405, 314, 17, 84, 181, 91, 146)
+RIGHT_CHEEK = (117, 118, 101, 36, 206, 216, 192, 213, 147, 123)
+FOREHEAD = (54, 103, 67, 109, 10, 338, 297, 332, 284, 298, 333, 299, 337, 9, 108, 69, 104, 68)
+"""Contours by FaceMesh's own vertex indices (MediaPipe's published topology); left ones are their mirror images."""
+
+_GROW = {"brow": 0.03, "eye": 0.07, "nose": 0.02, "mouth": 0.06, "cheek": 0.08, "forehead": 0.03}
+"""How far a region reaches beyond its contour, inter-ocular distances: an eye has lids."""
+
+
+@dataclass(frozen=True)
+class Regions:
+    """Nine soft masks, H x W each; they sum to at most 1."""
+
+    left_brow: Mask
+    right_brow: Mask
+    left_eye: Mask
+    right_eye: Mask
+    forehead: Mask
+    nose: Mask
+    mouth: Mask
+    left_cheek: Mask
+    right_cheek: Mask
+
+
+NAMES = tuple(field.name for field in fields(Regions))
+
+
+@node("regions.nine")
+def nine(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.08) -> Regions:
+    """The nine regions of one face.
+
+    Args:
+        photo: gives the size; its pixels are not read. landmarks: scheme "facemesh468".
+        softness: width of the way from 1 to 0, half of it inside the contour, in inter-ocular distances.
+
+    Raises:
+        UsageError: the landmarks follow another scheme.
+    """
+    x, y, covered = face_coordinates(photo, landmarks)
+    drawn = atlas(softness)
+    return Regions(*(_looked_up(drawn[name], x, y) * covered for name in NAMES))
+
+
+@node("regions.features")
+def features(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.12) -> Mask:
+    """Eyes (with brows), nose and mouth: where makeup keeps the input's own detail.
+
+    Args, errors: as `regions.nine`.
+    """
+    x, y, covered = face_coordinates(photo, landmarks)
+    drawn = atlas(softness)
+    names = ("left_brow", "right_brow", "left_eye", "right_eye", "nose", "mouth")
+    return np.minimum(_looked_up(sum(drawn[name] for name in names), x, y), 1) * covered  # type: ignore[arg-type]
+
+
+def face_coordinates(photo: Image, landmarks: Landmarks) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Which place of the mean face each pixel shows: x, y in inter-ocular distances, H x W; and 1 where there is one."""
+    mesh = facemesh(landmarks)
+    surface = rasterize(mesh, photo, smoothing=0)
+    corners = facemesh_topology().mean[mesh.triangles]
+    seen = np.maximum(surface.triangle, 0)
+    x, y = (sum(surface.barycentric[..., k] * corners[:, k, axis][seen] for k in range(3)) for axis in (0, 1))
+    return np.asarray(x, np.float32), np.asarray(y, np.float32), surface.coverage
+
+
+@cache
+def atlas(softness: float) -> dict[str, FloatArray]:
+    """The regions on the mean face seen from the front, SIDE x SIDE each; where two meet they share."""
+    contours = _contours()
+    drawn = {}
+    for name in NAMES:
+        inside = _drawn(contours[name])
+        depth = _signed_depth(inside) / SIDE * 2 * REACH + _GROW[name.rpartition("_")[2]]
+        t = np.clip(depth / softness + 0.5, 0, 1)
+        drawn[name] = (t * t * (3 - 2 * t)).astype(np.float32)
+    total = np.maximum(sum(drawn.values()), 1)
+    shared = {name: np.asarray(mask / total, np.float32) for name, mask in drawn.items()}
+    for mask in shared.values():
+        mask.setflags(write=False)
+    return shared
+
+
+def _contours() -> dict[str, NDArray[np.float32]]:
+    topology = facemesh_topology()
+    mirror = topology.mirror
+    own = {"right_brow": RIGHT_BROW, "right_eye": RIGHT_EYE, "right_cheek": RIGHT_CHEEK}
+    indices = {"nose": NOSE, "mouth": MOUTH, "forehead": FOREHEAD, **own}
+    indices |= {name.replace("right", "left"): tuple(mirror[list(points)]) for name, points in own.items()}
+    return {name: topology.mean[list(points), :2] for name, points in indices.items()}
+
+
+def _drawn(contour: NDArray[np.float32]) -> NDArray[np.uint8]:
+    import cv2
+
+    pixels = np.stack(_places(contour[:, 0], contour[:, 1]), axis=1)
+    canvas = np.zeros((SIDE, SIDE), np.uint8)
+    cv2.fillPoly(canvas, [np.round(pixels * 16).astype(np.int32)], 1, shift=4)
+    return canvas
+
+
+def _signed_depth(inside: NDArray[np.uint8]) -> FloatArray:
+    """Distance to the contour in pixels, positive inside."""
+    import cv2
+
+    within, beyond = (cv2.distanceTransform(m, cv2.DIST_L2, 5) for m in (inside, 1 - inside))
+    return np.asarray(within - beyond, np.float32)
+
+
+def _places(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Mean-face coordinates to the atlas' pixels."""
+    half = np.float32((SIDE - 1) / 2)
+    return half + x * (half / np.float32(REACH)), half - y * (half / np.float32(REACH))
+
+
+def _looked_up(drawn: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    import cv2
+
+    column, row = _places(x, y)
+    return np.asarray(cv2.remap(drawn, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT), np.float32)
