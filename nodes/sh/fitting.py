@@ -16,8 +16,9 @@ from graphface.nodes.types import FloatArray, Lighting, LightingFit, Mask, Norma
 ILL_CONDITIONED = 1e3
 """Condition number above which a fit is said to rest on its ridge. A frontal face at first order has about 20."""
 
-SAMPLES = 1 << 16
-"""Pixels that robust fits look at, taken at even strides: light has a handful of unknowns."""
+SAMPLES = 1 << 15
+"""Pixels that a fit looks at, about; more are taken at even strides. Light has a handful of unknowns: on path-traced
+heads the coefficients move by less than 0.1 %."""
 
 Robust = Literal["none", "huber", "trimmed"]
 
@@ -70,15 +71,13 @@ def fit(
         warn("sh.fit: the mask holds no pixel with a normal; took the mean shading of the picture as ambient light")
         return _ambient_fit(shading, order)
 
-    weights = mask[used].astype(np.float64)
-    design = basis(normals[used], order)
-    values = shading[used]
+    sampled = _sampled(used)
+    design, values = basis(normals[sampled], order), shading[sampled]
+    weights = mask[sampled].astype(np.float64)
     gram = _gram(design, weights)
     coefficients = _solve(design, values, weights, ridge, gram)
     if robust != "none":
-        stride = max(1, len(values) // SAMPLES)
-        sample = (design[::stride], values[::stride], weights[::stride])
-        coefficients = _reweighted(*sample, ridge, robust, keep, coefficients)
+        coefficients = _reweighted(design, values, weights, ridge, robust, keep, coefficients)
     if nonnegative:
         coefficients = nonnegative_coefficients(coefficients, gram, order)
 
@@ -89,8 +88,7 @@ def fit(
             "the ridge decided"
         )
     light = Lighting(coefficients.astype(np.float32))
-    residual = np.zeros(shading.shape, np.float32)
-    residual[used] = values - design @ light.coefficients
+    residual = _residual(shading, normals, used, light)
     return LightingFit(light, residual, condition, dominant_direction(light))
 
 
@@ -103,6 +101,34 @@ def dominant_direction(light: Lighting) -> FloatArray:
     length = float(np.linalg.norm(vector))
     constant = float(np.abs(light.coefficients[0]).mean())
     return (vector / length if length > 1e-6 * max(constant, 1e-6) else np.zeros(3)).astype(np.float32)
+
+
+def _sampled(used: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pixels used, or an even grid of them where there are many; all where the grid would miss most of a sliver."""
+    count = int(np.count_nonzero(used))
+    stride = int(np.sqrt(count / SAMPLES))
+    if stride < 2:
+        return used
+    grid = np.zeros_like(used)
+    grid[::stride, ::stride] = used[::stride, ::stride]
+    return grid if np.count_nonzero(grid) * stride**2 > count / 2 else used
+
+
+def _residual(shading: Shading, normals: Normals, used: NDArray[np.bool_], light: Lighting) -> FloatArray:
+    """Shading minus fit, 0 off `used`. The first order is affine in the normal, which OpenCV does in one pass."""
+    if light.order > 1:
+        residual = np.zeros(shading.shape, np.float32)
+        residual[used] = shading[used] - basis(normals[used], light.order) @ light.coefficients
+        return residual
+    import cv2
+
+    constant, *first = light.coefficients.reshape(len(light.coefficients), -1)
+    up, towards, right = first if first else [np.zeros_like(constant)] * 3
+    affine = np.stack([0.488603 * right, 0.488603 * up, 0.488603 * towards, 0.282095 * constant], axis=1)
+    fitted = np.asarray(cv2.transform(normals, affine), np.float32).reshape(shading.shape)
+    left = shading - fitted
+    left[~used] = 0
+    return left
 
 
 def _gram(design: FloatArray, weights: NDArray[np.float64]) -> NDArray[np.float64]:
