@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -40,6 +41,45 @@ def relight(
         for r in relight_truth(data, out, encoding=encoding, method=method)  # type: ignore[arg-type]
     ]
     headers = ("head", "light", ">PSNR dB", ">scale-invariant", ">unchanged", ">scale-invariant")
+    print_table(headers, rows)
+
+
+@app.command()
+def lights(
+    out: Annotated[Path | None, typer.Argument(help="Folder for the results, as score.py reads them.")] = None,
+    data: Data = Path("../shared/data"),
+    truth: Annotated[str, typer.Option(help="heads: path-traced; yale: photographs, one light at a time.")] = "heads",
+    variant: Annotated[list[str] | None, typer.Option(help="By name; `all` for every one.")] = None,
+    every: Annotated[int, typer.Option(min=1, help="Take every n-th person of the Yale set.")] = 1,
+) -> None:
+    """Relight by known lights with the shipped graph and parts of it changed: what each effect gains and costs."""
+    from statistics import median
+
+    from graphface import UsageError
+    from graphface.errors import did_you_mean, nearest_names
+    from graphface.nodes.commands.known_lights import VARIANTS, relight_known, truth_cases, yale_cases
+    from graphface.terminal import print_table
+
+    if truth not in ("heads", "yale"):
+        raise UsageError(f"--truth {truth!r}: expected heads or yale")
+    known = {v.name: v for v in VARIANTS}
+    asked = list(known) if variant == ["all"] else variant or [VARIANTS[0].name]
+    for name in asked:
+        if name not in known:
+            raise UsageError(f"unknown variant {name!r}{did_you_mean(nearest_names(name, known))}")
+    kind, digits = ("si_psnr", 2) if truth == "heads" else ("si_mse", 4)
+    headers: tuple[str, ...] = ()
+    rows = []
+    for name in asked:
+        cases = truth_cases(data) if truth == "heads" else yale_cases(data, every)
+        folder = None if out is None else (out if len(asked) == 1 else out / name)
+        found = list(relight_known(cases, folder, known[name], linear=truth == "yale"))
+        names = dict.fromkeys(f.light for f in found)
+        headers = ("variant", *(f">{light}" for light in names), ">mean", ">SSIM", ">ms")
+        if not rows:
+            rows.append(_lights_row("unchanged photo", [(f.light, f.unchanged) for f in found], names, kind, digits, ""))
+        took = f"{median(f.milliseconds for f in found):.0f}"
+        rows.append(_lights_row(name, [(f.light, f.measured) for f in found], names, kind, digits, took))
     print_table(headers, rows)
 
 
@@ -100,3 +140,14 @@ def poses(
         left = [per_cent for _, _, per_cent in photos.portrait_residuals(data / "portraits", own, every)]
         rows.append((own.name, f"portraits ({len(left)}), of eye distance", f"{median(left):.2f}", "", ""))
     print_table(("model", "photographs", ">error %", ">yaw off deg", ">failed %"), rows)
+
+
+def _lights_row(
+    name: str, found: list[tuple[str, dict[str, float]]], lights: Iterable[str], kind: str, digits: int, took: str
+) -> tuple[str, ...]:
+    """Mean of one figure for each light and over all of them, mean SSIM, time."""
+    from statistics import fmean
+
+    each = [fmean(f[kind] for light, f in found if light == wanted) for wanted in lights]
+    whole, ssim = fmean(f[kind] for _, f in found), fmean(f["ssim"] for _, f in found)
+    return (name, *(f"{value:.{digits}f}" for value in each), f"{whole:.{digits}f}", f"{ssim:.3f}", took)

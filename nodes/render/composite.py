@@ -32,7 +32,7 @@ def composite(
 ) -> Shading:
     """The face takes the new shading, hair the old one at its bright pixels, the background a constant mixture.
 
-    Hair looks like hair by its highlights, and those are no matter of the face's light. The blend is by the soft labels,
+    Hair looks like hair by its highlights, and those are no matter of the face's light. The blend is by soft labels,
     so that it is as smooth as they are.
 
     Args:

@@ -29,15 +29,18 @@ Points = NDArray[np.float64]
 
 
 @node("render.head")
-def head(mesh: Mesh) -> Mesh:
+def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     """A face mesh with a cranium and a neck of average size behind it, in the face's own pose.
 
     Args:
-        mesh: of `geometry.*`. Where its pose is not known (no fit, other points) it comes back as it is.
+        mesh: of `geometry.*`. Where its pose is not known (other points than FaceMesh's) it comes back as it is.
+        solids: False leaves the mesh as it is, to see what they are good for.
 
     Returns:
         The same mesh with vertices and triangles added at the end; camera, unit and fit are the face's.
     """
+    if not solids:
+        return mesh
     pose = _pose(mesh)
     if pose is None:
         warn("render.head: the mesh tells no pose of the face; light beyond it is continued without a head")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import Lazy, node
+from graphface import node
 from graphface.nodes.colour import decode_srgb
 from graphface.nodes.render.irradiance import arriving, irradiance, towards_light
 from graphface.nodes.render.lights import HarmonicLight
