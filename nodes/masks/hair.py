@@ -21,7 +21,7 @@ from graphface.nodes.masks.prior import layout_of, log_sum_exp
 from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.types import FloatArray, HeadMasks, Landmarks, Mask
 
-SAMPLES = 3000
+SAMPLES = 2000
 """Pixels that a mixture is fitted to; taken at even steps."""
 
 SHINE, SHINE_HUE = 0.07, 1.9
@@ -45,7 +45,7 @@ def hair(
     components: Annotated[int, Field(ge=1, le=16)] = 4,
     margin: Annotated[float, Field(ge=0, le=20)] = 3.0,
     least: Annotated[float, Field(ge=0, le=1)] = 0.12,
-    rounds: Annotated[int, Field(ge=1, le=10)] = 4,
+    rounds: Annotated[int, Field(ge=1, le=10)] = 3,
 ) -> Hair:
     """Find hair by the colours and textures on top of this head.
 

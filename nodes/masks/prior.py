@@ -85,9 +85,11 @@ def log_prior(layout: Layout) -> FloatArray:
 
 def log_sum_exp(scores: FloatArray) -> FloatArray:
     """log of the sum of exponentials over the last axis, which is kept."""
-    top = scores.max(axis=-1, keepdims=True)
-    total: FloatArray = top + np.log(np.exp(scores - top).sum(axis=-1, keepdims=True))
-    return total
+    top = scores[..., :1]
+    for k in range(1, scores.shape[-1]):
+        top = np.maximum(top, scores[..., k : k + 1])  # several times faster than `max` over so short an axis
+    total = np.exp(scores - top) @ np.ones((scores.shape[-1], 1), scores.dtype)
+    return np.asarray(top + np.log(total), np.float32)
 
 
 def _features(points: Points, scheme: str, shape: tuple[int, int], unit: float) -> NDArray[np.bool_]:

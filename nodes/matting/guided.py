@@ -37,11 +37,10 @@ def guided(
     import cv2
 
     unit = max(landmarks.interocular, 1e-3)
-    guide = np.clip(np.nan_to_num(photo.pixels), 0, 1).astype(np.float32, copy=False)
     part = _busy(labels, round(2 * radius * unit) + 2)
     if part is None:
         return labels
-    guide = guide[part]
+    guide = np.clip(np.nan_to_num(photo.pixels[part]), 0, 1).astype(np.float32, copy=False)
     alphas = np.stack([labels.face[part], labels.hair[part]], axis=2)
     height, width = guide.shape[:2]
     scale = min(1.0, resolution / unit)
@@ -49,11 +48,10 @@ def guided(
     small_guide, small_alphas = (cv2.resize(a, size, interpolation=cv2.INTER_AREA) for a in (guide, alphas))
     side = 2 * max(1, round(radius * unit * scale)) + 1
     functions = _linear_functions(small_guide, small_alphas.reshape(*size[::-1], 2), side, ridge)
-    out = np.stack([labels.face, labels.hair, labels.background], axis=2)
-    out[part][..., :2] = _applied(functions, guide)
-    face, hair = (np.clip(out[..., k], 0, 1) for k in (0, 1))
-    total = np.maximum(face + hair, 1)
-    face, hair = face / total, hair / total
+    drawn = np.clip(_applied(functions, guide), 0, 1)
+    drawn /= np.maximum(drawn[0] + drawn[1], 1)
+    face, hair = labels.face.copy(), labels.hair.copy()
+    face[part], hair[part] = drawn
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
 
 
@@ -95,7 +93,7 @@ def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
 
 
 def _applied(functions: FloatArray, guide: FloatArray) -> FloatArray:
-    """The functions enlarged to the guide and applied to its colours, in strips that stay in the cache: H x W x 2."""
+    """The functions enlarged to the guide and applied to its colours: 2 x H x W."""
     import cv2
 
     height, width = guide.shape[:2]
@@ -104,13 +102,10 @@ def _applied(functions: FloatArray, guide: FloatArray) -> FloatArray:
         for k in range(8)
     ]
     channels = [np.ascontiguousarray(guide[..., c]) for c in range(3)]
-    alphas = np.empty((height, width, 2), np.float32)
     for k in range(2):
-        alpha = planes[4 * k + 3]
         for c in range(3):
-            alpha += planes[4 * k + c] * channels[c]
-        alphas[..., k] = alpha
-    return alphas
+            planes[4 * k + 3] += planes[4 * k + c] * channels[c]
+    return np.stack([planes[3], planes[7]])
 
 
 def _boxed(values: FloatArray, side: int) -> FloatArray:
