@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from graphface.nodes.commands.segmentation_truth import Segmented
 
 app = typer.Typer(help="Measure accuracy on ground truth, and the time it takes.", no_args_is_help=True)
 
@@ -37,10 +40,13 @@ def relight(
     if encoding not in ("srgb", "linear"):
         raise UsageError(f"--encoding {encoding!r}: expected srgb or linear")
     rows = [
-        (r.head, r.light, f"{r.psnr:.2f}", f"{r.si_psnr:.2f}", f"{r.unchanged_psnr:.2f}", f"{r.unchanged_si_psnr:.2f}")
+        (
+            *(r.head, r.light, f"{r.psnr:.2f}", f"{r.si_psnr:.2f}"),
+            *(f"{r.unchanged_psnr:.2f}", f"{r.unchanged_si_psnr:.2f}", f"{r.normal_error:.1f}"),
+        )
         for r in relight_truth(data, out, encoding=encoding, method=method)  # type: ignore[arg-type]
     ]
-    headers = ("head", "light", ">PSNR dB", ">scale-invariant", ">unchanged", ">scale-invariant")
+    headers = ("head", "light", ">PSNR dB", ">scale-inv.", ">unchanged", ">scale-inv.", ">normals, degrees off")
     print_table(headers, rows)
 
 
@@ -77,7 +83,8 @@ def lights(
         names = dict.fromkeys(f.light for f in found)
         headers = ("variant", *(f">{light}" for light in names), ">mean", ">SSIM", ">ms")
         if not rows:
-            rows.append(_lights_row("unchanged photo", [(f.light, f.unchanged) for f in found], names, kind, digits, ""))
+            before = [(f.light, f.unchanged) for f in found]
+            rows.append(_lights_row("unchanged photo", before, names, kind, digits, ""))
         took = f"{median(f.milliseconds for f in found):.0f}"
         rows.append(_lights_row(name, [(f.light, f.measured) for f in found], names, kind, digits, took))
     print_table(headers, rows)
@@ -140,6 +147,47 @@ def poses(
         left = [per_cent for _, _, per_cent in photos.portrait_residuals(data / "portraits", own, every)]
         rows.append((own.name, f"portraits ({len(left)}), of eye distance", f"{median(left):.2f}", "", ""))
     print_table(("model", "photographs", ">error %", ">yaw off deg", ">failed %"), rows)
+
+
+@app.command()
+def masks(
+    data: Data = Path("../shared/data"),
+    matting: Annotated[
+        list[str] | None, typer.Option(help="none, guided, closed_form or knn; all of them by default.")
+    ] = None,
+) -> None:
+    """Segment the path-traced heads: overlap and boundary error of every label, time and memory, for each matting."""
+    from statistics import fmean, median
+
+    from graphface import UsageError
+    from graphface.nodes.commands import segmentation_truth as truth
+    from graphface.terminal import print_table
+
+    unknown = [name for name in matting or () if name not in truth.MATTINGS]
+    if unknown:
+        raise UsageError(f"--matting {unknown[0]!r}: expected {', '.join(truth.MATTINGS)}")
+    chosen = {name: truth.MATTINGS[name] for name in matting or truth.MATTINGS}
+    found = list(truth.segment_truth(data, chosen))
+    rows = []
+    for name in chosen:
+        own = [row for row in found if row.matting == name]
+        for row in own:
+            rows.append((name, row.head, *_mask_figures([row], fmean), f"{row.matting_ms:.0f}", f"{row.peak_mb:.0f}"))
+        took, most = median(row.matting_ms for row in own), max(row.peak_mb for row in own)
+        rows.append((name, "mean", *_mask_figures(own, fmean), f"{took:.0f}", f"{most:.0f}"))
+    columns = [f">{figure} {label}" for label in truth.LABELS for figure in ("IoU", "edge px")]
+    before = median(row.labels_ms for row in found)
+    print_table(("matting", "head", *columns, ">ms", ">MB"), rows)
+    print(f"labels up to the classifiers: {before:.0f} ms (median)")
+
+
+def _mask_figures(rows: list[Segmented], mean: Callable[[Iterable[float]], float]) -> list[str]:
+    """Mean overlap and boundary error of each label in turn."""
+    figures = []
+    for label in range(3):
+        figures.append(f"{mean(row.iou[label] for row in rows):.3f}")
+        figures.append(f"{mean(row.boundary[label] for row in rows):.2f}")
+    return figures
 
 
 def _lights_row(
