@@ -28,11 +28,18 @@ def keep(
     nose: Share = 1.0,
     lids: Share = 0.6,
     lips: Share = 0.6,
+    around: Share = 0.8,
     brows: Share = 0.0,
     elsewhere: Share = 0.0,
 ) -> Mask:
     """How much of the input's fine detail stays: the mask that detail maps are blended by."""
-    shares = ((features.nose, nose), (features.lids, lids), (features.lips, lips), (features.brows, brows))
+    shares = (
+        (features.nose, nose),
+        (features.lids, lids),
+        (features.lips, lips),
+        (features.around, around),
+        (features.brows, brows),
+    )
     mask = np.full_like(features.nose, elsewhere)
     for part, share in shares:
         mask = np.maximum(mask, part * np.float32(share))

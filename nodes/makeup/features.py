@@ -33,11 +33,13 @@ NOSE = (168, 122, 174, 198, 209, 49, 64, 98, 97, 2, 326, 327, 294, 279, 429, 420
 
 @dataclass(frozen=True)
 class Features:
-    """Masks H x W: the openings `eyes` and `mouth`; `lips` without the mouth, `lids`, `brows`, `nose`, `cheeks`."""
+    """Masks H x W: openings `eyes` and `mouth`; `lips` without the mouth, and the skin `around` them with the corners
+    of the mouth; `lids`, `brows`, `nose`, `cheeks`."""
 
     eyes: Mask
     mouth: Mask
     lips: Mask
+    around: Mask
     lids: Mask
     brows: Mask
     nose: Mask
@@ -69,11 +71,12 @@ def features(photo: Image, landmarks: Landmarks, *, softness: Annotated[float, F
     if not np.isfinite(landmarks.points).all():
         warn("makeup.features: some landmarks are not finite; they are left out of the outlines")
     canvas = _Canvas(photo, landmarks, softness * landmarks.interocular)
-    eyes, mouth = canvas.drawn(EYES, 0.7), canvas.drawn((MOUTH,), 0.7)
+    eyes, mouth, lips = canvas.drawn(EYES, 0.7), canvas.drawn((MOUTH,), 0.7), canvas.drawn((LIPS,), 1)
     return Features(
         eyes=eyes,
         mouth=mouth,
-        lips=np.maximum(canvas.drawn((LIPS,), 1) - mouth, 0),
+        lips=np.maximum(lips - mouth, 0),
+        around=np.clip(canvas.drawn((LIPS,), 1, grow=0.12) - lips, 0, 1),
         lids=np.maximum(canvas.drawn(LIDS, 3, hull=True) - eyes, 0),
         brows=canvas.drawn(BROWS, 2, hull=True),
         nose=canvas.drawn((NOSE,), 2),
@@ -88,9 +91,15 @@ class _Canvas:
         self.shape = (photo.height, photo.width)
         self.points = landmarks.points[:, :2].astype(np.float64)
         self.softness = softness
+        self.unit = landmarks.interocular
 
-    def drawn(self, outlines: tuple[tuple[int, ...], ...], blur: float, hull: bool = False) -> FloatArray:
-        """Polygons through numbered points (or their convex hulls), blurred by a multiple of the softness."""
+    def drawn(
+        self, outlines: tuple[tuple[int, ...], ...], blur: float, hull: bool = False, grow: float = 0
+    ) -> FloatArray:
+        """Polygons through numbered points (or their convex hulls), blurred by a multiple of the softness.
+
+        `grow`: width added all around, in inter-ocular distances.
+        """
         import cv2
 
         mask = np.zeros(self.shape, np.float32)
@@ -98,7 +107,7 @@ class _Canvas:
         for outline in outlines:
             corners = self.points[list(outline)]
             corners = corners[np.isfinite(corners).all(axis=1)]
-            box = self._box(corners, margin=3 * sigma + 2)
+            box = self._box(corners, margin=3 * sigma + grow * self.unit + 2)
             if box is None:
                 continue
             rows, columns = box
@@ -108,6 +117,9 @@ class _Canvas:
                 fixed = cv2.convexHull(fixed)[:, 0]
             drawn = np.zeros((rows.stop - rows.start, columns.stop - columns.start), np.uint8)
             cv2.fillPoly(drawn, [fixed], 255, cv2.LINE_AA, 4)
+            if grow > 0:
+                kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(grow * self.unit) + 1,) * 2)
+                drawn = cv2.dilate(drawn, kernel)
             soft = cv2.GaussianBlur(drawn.astype(np.float32) / 255, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
             mask[rows, columns] = np.maximum(mask[rows, columns], soft)
         return mask

@@ -1,0 +1,126 @@
+"""Detail transfer between regions of two faces, the input's light and albedo kept (paper, "Face Detail Transfer")."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node, warn
+from graphface.nodes.regions import Regions
+from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
+from graphface.nodes.warp.correspondence import Correspondence
+
+Region = Literal[
+    "left_brow",
+    "right_brow",
+    "left_eye",
+    "right_eye",
+    "forehead",
+    "nose",
+    "mouth",
+    "left_cheek",
+    "right_cheek",
+]
+Strength = Annotated[float, Field(ge=0, le=2)]
+Scale = Annotated[float, Field(gt=0, le=2)]
+
+REGIONS: tuple[Region, ...] = Region.__args__  # type: ignore[attr-defined]
+
+
+@node("transfer.mask")
+def mask(
+    regions: Regions,
+    correspondence: Correspondence,
+    skin: Mask | None = None,
+    given: Mask | None = None,
+    *,
+    take: tuple[Region, ...] = REGIONS,
+    strength: Strength = 1.0,
+    strengths: dict[Region, Strength] = {},  # noqa: B006 - pydantic copies it
+) -> Mask:
+    """How much of the reference's detail each pixel gets.
+
+    Args:
+        regions: the input's. correspondence: parts that the reference hides keep the input's detail.
+        skin: where the input's detail may be changed; hair in front of the face is not skin.
+        given: a user's own mask, multiplied on top.
+        take: which regions; none leaves the photo as it is. Left and right are the person's own.
+        strength: of all; `strengths`: of single regions, in its place. Above 1 detail is exaggerated.
+
+    Returns:
+        H x W, 0..2.
+    """
+    if not take:
+        warn("transfer.mask: no region was asked for; the photo stays as it is")
+    total = np.zeros_like(regions.nose)
+    for name in dict.fromkeys(take):
+        total += getattr(regions, name) * np.float32(strengths.get(name, strength))
+    total *= correspondence.known * correspondence.inside
+    for factor in (skin, given):
+        if factor is not None:
+            total *= np.clip(factor, 0, 1)
+    return total
+
+
+@node("transfer.detail")
+def detail(
+    detail: DetailMap,
+    reference: DetailMap,
+    mask: Mask,
+    landmarks: Landmarks,
+    *,
+    broadest: Scale | None = 0.35,
+    finest: Annotated[float, Field(ge=0, le=2)] = 0.0,
+) -> DetailMap:
+    """The input's detail map with a band of the reference's in its place, as far as the mask says.
+
+    Args:
+        detail: the input's. reference: warped to the input, in the input's exposure (`makeup.exposed` with tone 0).
+        mask: how much of the band is exchanged; 0 leaves every bit as it is.
+        broadest, finest: the band's ends as Gaussian scales, in inter-ocular distances: features broader than the one
+            stay the input's (the light falling over its face is among them), and so do those finer than the other. None
+            exchanges everything broad as well.
+
+    Returns:
+        A map with the parts (offset, gain, pivot) that either of the two has.
+    """
+    if not mask.any():
+        return detail
+    unit = max(landmarks.interocular, 1e-3)
+    parts = {}
+    for field in fields(reference):
+        own, other = getattr(detail, field.name), getattr(reference, field.name)
+        if own is None and other is None:
+            continue
+        neutral = np.zeros if field.name == "offset" else np.ones
+        own, other = (v if v is not None else neutral((*mask.shape, 3), np.float32) for v in (own, other))
+        parts[field.name] = _exchanged(own, other, mask, broadest and broadest * unit, finest * unit)
+    return replace(detail, **parts)
+
+
+def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float | None, finest: float) -> FloatArray:
+    """own + mask * band(other - own), within the mask's box: the band is linear, so the difference alone is filtered.
+
+    Broad differences are averaged over the mask only, so that eyes beside a cheek do not tint it.
+    """
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    share = mask[window][..., None]
+    difference = other[window] - own[window]
+    band = difference if finest < 0.3 else _smooth(difference, finest)
+    if broadest is not None:
+        weight = np.minimum(share, 1)
+        broad = _smooth(np.dstack([difference * weight, weight]), max(broadest, 0.5))
+        band = band - broad[..., :3] / np.maximum(broad[..., 3:], np.float32(1e-3))
+    changed = own.copy()
+    changed[window] += share * band
+    return changed
+
+
+def _smooth(values: FloatArray, sigma: float) -> FloatArray:
+    import cv2
+
+    return np.asarray(cv2.GaussianBlur(values, (0, 0), sigma, borderType=cv2.BORDER_CONSTANT), np.float32)
