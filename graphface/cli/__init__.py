@@ -13,7 +13,7 @@ from typing import Any
 
 import typer
 
-from graphface.cli import assets, cache, explain, new, nodes, plan, run, schema, show
+from graphface.cli import ablate, assets, cache, explain, new, nodes, plan, run, schema, show
 
 ENTRY_POINTS = "graphface.commands"
 _INTERRUPTED = 130
@@ -33,6 +33,7 @@ def build() -> typer.Typer:
     app.command("run")(run.run)
     app.command("plan")(plan.plan)
     app.command("explain")(explain.explain)
+    app.command("ablate")(ablate.ablate)
     app.command("show")(show.show)
     app.command("nodes")(nodes.nodes)
     app.command("new")(new.new)

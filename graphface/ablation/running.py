@@ -1,0 +1,190 @@
+"""Running the variants on one memory tier, so that what they have in common is computed once, and keeping the accounts.
+
+Two times are told of every variant: `alone`, what its nodes take when nothing is memoized (each measured the one time
+it ran), and `spent`, what it took here. Their difference, summed, is what sharing saved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from graphface.ablation.figures import Metric, measured
+from graphface.ablation.swaps import Variant, read_swaps, variants
+from graphface.errors import RunFailed, UsageError
+from graphface.evaluate import Evaluator
+from graphface.observe import Observer, Record
+
+if TYPE_CHECKING:
+    from graphface.graph import Graph
+    from graphface.wiring import Step
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One variant on one case.
+
+    `value` is the output, None where the variant failed (`failure` says why). `figures` by metric. `alone` and `spent`
+    in seconds. `shared` counts the nodes that another variant had computed already, out of `nodes`.
+    """
+
+    variant: Variant
+    case: int
+    value: Any = field(repr=False)
+    figures: Mapping[str, float]
+    alone: float
+    spent: float
+    nodes: int
+    shared: int
+    slowest: tuple[str, float]
+    swapped: float
+    """Seconds of the nodes that were swapped."""
+    warnings: tuple[str, ...] = ()
+    failure: str = ""
+
+
+@dataclass(frozen=True)
+class Ablation:
+    """Every cell, by case and within it by variant; `truths` are the true outputs by case, None where not given."""
+
+    graph: Graph
+    output: str
+    variants: list[Variant]
+    cases: list[Mapping[str, Any]]
+    cells: list[Cell] = field(repr=False)
+    truths: list[Any] = field(repr=False)
+
+    def of_case(self, case: int) -> list[Cell]:
+        return [cell for cell in self.cells if cell.case == case]
+
+    def of_variant(self, variant: Variant) -> list[Cell]:
+        return [cell for cell in self.cells if cell.variant == variant]
+
+    @property
+    def sharing(self) -> str:
+        """What was shared and what that saved, in a sentence."""
+        nodes, shared = sum(c.nodes for c in self.cells), sum(c.shared for c in self.cells)
+        alone, spent = sum(c.alone for c in self.cells), sum(c.spent for c in self.cells)
+        saved = max(alone - spent, 0)
+        share = saved / max(alone, 1e-9)
+        return (
+            f"{shared} of {nodes} node results were shared between variants; {spent:.2f} s of work instead of "
+            f"{alone:.2f} s, {saved:.2f} s ({share:.0%}) saved"
+        )
+
+
+def ablate(
+    source: str | Path,
+    swaps: Sequence[str],
+    cases: Sequence[Mapping[str, Any]],
+    *,
+    output: str | None = None,
+    truths: Sequence[Any] = (),
+    metrics: Sequence[Metric] = (),
+    one_at_a_time: bool = False,
+    evaluator: Evaluator | None = None,
+    loading: Mapping[str, Any] | None = None,
+    said: Callable[[str], None] = lambda _: None,
+) -> Ablation:
+    """Run every variant of a graph on every case.
+
+    Args:
+        swaps: as on the command line, "intrinsic=intensity,retinex".
+        cases: graph inputs by name, one mapping for each case.
+        output: which output, or "node.port"; the first declared one by default.
+        truths: the true output of each case, or none at all. metrics: what to measure against it.
+        evaluator: where to run; by default a new one with a memory tier, one thread (node times are then undisturbed).
+        loading: further arguments of `graphface.load`, for every variant.
+        said: told the name of each variant as it starts.
+
+    Raises:
+        UsageError: a swap that the graph cannot take. InputError: an input that does not fit.
+    """
+    from graphface.cache.memory import MemoryTier
+    from graphface.graph import load
+
+    given = dict(loading or {})
+    base = load(source, **given)
+    chosen = variants(read_swaps(swaps, base), one_at_a_time=one_at_a_time)
+    name = output or next(iter(base.outputs), None)
+    if name is None:
+        raise UsageError(f"{base.name} declares no output; name one")
+    evaluator = evaluator if evaluator is not None else Evaluator(memory=MemoryTier())
+    graphs = [_loaded(source, variant, given) for variant in chosen]
+    known: dict[bytes, float] = {}
+    kept = list(truths) if truths else [None] * len(cases)
+    cells = []
+    for index, case in enumerate(cases):
+        for variant, graph in zip(chosen, graphs, strict=True):
+            said(variant.name)
+            cells.append(_cell(graph, variant, index, case, name, kept[index], metrics, evaluator, known))
+    return Ablation(base, name, chosen, list(cases), cells, kept)
+
+
+class _Times(Observer):
+    """The records of one run."""
+
+    def __init__(self) -> None:
+        self.records: list[Record] = []
+
+    def node_finished(self, record: Record, step: Step | None, value: Any) -> None:
+        self.records.append(record)
+
+
+def _loaded(source: str | Path, variant: Variant, given: Mapping[str, Any]) -> Graph:
+    from graphface.graph import load
+
+    both = dict(given)
+    both["replace"] = {**given.get("replace", {}), **variant.replace}
+    both["set"] = {**given.get("set", {}), **variant.set}
+    both["variants"] = [*given.get("variants", ()), *variant.variants]
+    both["profiles"] = [*given.get("profiles", ()), *variant.profiles]
+    return load(source, **both)
+
+
+def _cell(
+    graph: Graph,
+    variant: Variant,
+    index: int,
+    case: Mapping[str, Any],
+    output: str,
+    truth: Any,
+    metrics: Sequence[Metric],
+    evaluator: Evaluator,
+    known: dict[bytes, float],
+) -> Cell:
+    bound, targets = graph.bind(case), graph.targets([output])
+    times = _Times()
+    watched = Evaluator(
+        memory=evaluator.memory,
+        disk=evaluator.disk,
+        threads=evaluator.threads,
+        guard=evaluator.guard,
+        observers=[*evaluator.observers, times],
+    )
+    value, failure = None, ""
+    try:
+        value = watched.run(graph, bound, targets)[output]
+    except RunFailed as error:
+        failure = str(error).partition("\n")[0]
+    ran = {r.key: r.seconds for r in times.records if r.state == "ran"}
+    known.update(ran)
+    keys = graph.keys(bound)
+    needed = {keys[step.slot]: step for step in graph.steps_behind(targets.values()) if keys[step.slot] in known}
+    slowest = max(needed, key=lambda key: known[key], default=b"")
+    return Cell(
+        variant=variant,
+        case=index,
+        value=value,
+        figures=measured(metrics, value, truth) if value is not None and truth is not None else {},
+        alone=sum(known[key] for key in needed),
+        spent=sum(seconds for key, seconds in ran.items() if key in needed),
+        nodes=len(needed),
+        shared=sum(key not in ran for key in needed),
+        slowest=(needed[slowest].name, known[slowest]) if needed else ("", 0.0),
+        swapped=sum(known[key] for key, step in needed.items() if step.name in variant.replace),
+        warnings=tuple(f"{r.name}: {w}" for r in times.records for w in r.warnings),
+        failure=failure,
+    )

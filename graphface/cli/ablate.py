@@ -1,0 +1,145 @@
+"""`graphface ablate`: swap parts of a graph and see what each variant gives and what it costs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from graphface.cli.options import Cache, GraphName, Inputs, Plugins, Profiles, Replaces, Sets, Variants, open_cache
+
+if TYPE_CHECKING:
+    from graphface.graph import Graph
+
+
+def ablate(
+    graph: GraphName,
+    swap: Annotated[
+        list[str], typer.Option("--swap", metavar="NODE=A,B", help="Methods of a node, or values of NODE.PARAM.")
+    ],
+    inputs: Inputs = [],  # noqa: B006
+    out: Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="Folder for the answer.")] = Path("ablation"),
+    output: Annotated[str | None, typer.Option(help="Which output to compare; the graph's first one.")] = None,
+    truth: Annotated[
+        Path | None, typer.Option(help="The true output, or a folder that has it under the input's file name.")
+    ] = None,
+    metric: Annotated[list[str], typer.Option(help="Figures wanted; all that fit by default.")] = [],  # noqa: B006
+    one_at_a_time: Annotated[bool, typer.Option("--one-at-a-time", help="Vary one swap at a time.")] = False,
+    crop: Annotated[str | None, typer.Option(metavar="X,Y,W,H", help="Window of the crops, in pixels.")] = None,
+    sets: Sets = [],  # noqa: B006
+    replaces: Replaces = [],  # noqa: B006
+    variants: Variants = [],  # noqa: B006
+    profiles: Profiles = [],  # noqa: B006
+    plugins: Plugins = [],  # noqa: B006
+    threads: Annotated[int, typer.Option(min=1, help="Nodes at once; 1 keeps node times undisturbed.")] = 1,
+    cache: Cache = None,
+) -> None:
+    """Compare methods: [bold]graphface ablate relight --swap intrinsic=intensity,retinex -i photo=a.jpg[/bold]
+
+    Repeat -i NAME=FILE for several cases. Writes table.csv, table.md, sheet.png and index.html into the folder.
+    """
+    from graphface.ablation import ablate as run_ablation
+    from graphface.ablation.figures import metrics_for
+    from graphface.ablation.page import write_page
+    from graphface.ablation.sheet import write_sheet
+    from graphface.ablation.table import as_csv, as_markdown, columns, rows, shown
+    from graphface.cache.memory import MemoryTier
+    from graphface.cli.options import load_graph
+    from graphface.compose import read_flag
+    from graphface.errors import UnwritableFile
+    from graphface.evaluate import Evaluator
+    from graphface.terminal import print_table, print_warnings
+
+    box = _box(crop)
+    base = load_graph(graph, sets, replaces, variants, profiles, plugins)
+    cases = read_cases(inputs)
+    name = output or next(iter(base.outputs), "")
+    declared = base.type_of(base.targets([name])[name])
+    truths = [_truth(base, declared, case, truth) for case in cases] if truth is not None else []
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UnwritableFile(out, error.strerror or str(error)) from None
+    said: list[str] = []
+    loading = {
+        "set": dict(read_flag(text, "--set") for text in sets),
+        "replace": dict(text.split("=", 1) for text in replaces),
+        "variants": variants,
+        "profiles": profiles,
+        "plugins": plugins,
+    }
+    done = run_ablation(
+        graph,
+        swap,
+        cases,
+        output=name,
+        truths=truths,
+        metrics=metrics_for(declared, base.registry, metric) if truths else (),
+        one_at_a_time=one_at_a_time,
+        evaluator=Evaluator(memory=MemoryTier(), disk=open_cache(cache, said), threads=threads),
+        loading=loading,
+    )
+    (out / "table.csv").write_text(as_csv(done), encoding="utf-8")
+    (out / "table.md").write_text(as_markdown(done), encoding="utf-8")
+    write_sheet(done, out / "sheet.png", crop=box)
+    write_page(done, out / "index.html")
+    names = columns(done)
+    print_table(
+        ("variant", *(f">{n}" for n in names[1:])),
+        [tuple(shown(row.get(n, "")) for n in names) for row in rows(done)],
+    )
+    print(f"{done.sharing}\nwrote table.csv, table.md, sheet.png and index.html to {out}/")
+    failures = [f"{c.variant.name}: {c.failure}" for c in done.cells if c.failure]
+    print_warnings([*failures, *dict.fromkeys(w for c in done.cells for w in c.warnings), *said])
+
+
+def read_cases(pairs: list[str]) -> list[Mapping[str, Any]]:
+    """ "-i" flags as cases: an input given n times makes n cases, one given once is the same in all of them.
+
+    Raises:
+        UsageError: two inputs are given several times, but not equally often.
+    """
+    from graphface.cli.options import read_inputs
+    from graphface.errors import UsageError
+
+    given: dict[str, list[Any]] = {}
+    for text in pairs:
+        for name, value in read_inputs([text]).items():
+            given.setdefault(name, []).append(value)
+    counts = {len(values) for values in given.values()} - {1}
+    if len(counts) > 1:
+        told = ", ".join(f"{name} {len(values)} times" for name, values in given.items())
+        raise UsageError(f"inputs are given unequally often: {told}")
+    count = counts.pop() if counts else 1
+    return [{name: values[i if len(values) > 1 else 0] for name, values in given.items()} for i in range(count)]
+
+
+def _truth(graph: Graph, declared: Any, case: Mapping[str, Any], where: Path) -> Any:
+    """The true output of a case, read as the output's type."""
+    from graphface.errors import UnreadableFile, UsageError
+    from graphface.inputs import reader_of
+
+    reader = reader_of(declared)
+    if reader is None:
+        raise UsageError(f"--truth: a {declared} cannot be read from a file")
+    if where.is_file():
+        return reader(where)
+    stems = [Path(str(value)).stem for value in case.values()]
+    found = [path for stem in stems for path in sorted(where.glob(f"{stem}.*"))]
+    if not found:
+        raise UnreadableFile(where, f"holds no file named as an input of the case ({', '.join(stems) or 'none given'})")
+    return reader(found[0])
+
+
+def _box(text: str | None) -> tuple[int, int, int, int] | None:
+    from graphface.errors import UsageError
+
+    if text is None:
+        return None
+    parts = text.split(",")
+    if len(parts) != 4 or not all(part.strip().isdigit() for part in parts) or "0" in (parts[2], parts[3]):
+        raise UsageError(f"--crop {text!r}: expected X,Y,WIDTH,HEIGHT in pixels")
+    left, top, width, height = (int(part) for part in parts)
+    return left, top, width, height
