@@ -27,6 +27,7 @@ pack = Pack(
         "matting": " ".join(f"graphface.nodes.matting.{m}" for m in ("none", "guided", "closed_form", "knn")),
         "regions": "graphface.nodes.regions",
         "intrinsic": " ".join(f"graphface.nodes.intrinsic.{method}" for method in _INTRINSIC),
+        "metrics": "graphface.nodes.metrics.operators",
         "sh": " ".join(f"graphface.nodes.sh.{m}" for m in ("fitting", "rendering", "rotation", "environment", "ball")),
         "detail": " ".join(f"{_DETAIL}.{method}" for method in ("additive", "multiplicative", "none", "split")),
         "detail.edit": " ".join(f"{_DETAIL}.{edit}" for edit in ("bands", "wrinkles", "shine")),
