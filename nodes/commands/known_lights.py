@@ -86,8 +86,10 @@ class Case:
 
 @dataclass(frozen=True)
 class Figure:
-    """`psnr`, `si_psnr` in dB, `rmse`, `si_mse`, `ssim` over the compared pixels; `unchanged` the same five of the photo
-    as it is; `milliseconds` from the representation on."""
+    """`psnr`, `si_psnr` in dB, `rmse`, `si_mse`, `ssim` over the compared pixels.
+
+    `unchanged` has the same five of the photo as it is; `milliseconds` are from the representation on.
+    """
 
     subject: str
     light: str

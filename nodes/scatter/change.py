@@ -9,7 +9,7 @@ import numpy as np
 from graphface.nodes.colour import decode_srgb, encode_srgb
 from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
 
-FINEST = 128.0
+FINEST = 64.0
 """Points per inter-ocular distance of the copy that is smoothed; what is lost on it is put back."""
 
 Blur = Callable[[FloatArray, FloatArray, float], FloatArray]
