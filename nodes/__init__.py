@@ -35,6 +35,7 @@ pack = Pack(
         "graphface.nodes.render.head graphface.nodes.render.skin graphface.nodes.render.specular "
         "graphface.nodes.render.composite graphface.nodes.render.relit",
         "scatter": "graphface.nodes.scatter.none graphface.nodes.scatter.gaussian graphface.nodes.scatter.screen_space",
+        "transfer": "graphface.nodes.transfer",
         "warp": "graphface.nodes.warp.mesh graphface.nodes.warp.resample",
         "flow": " ".join(f"graphface.nodes.flow.{m}" for m in ("none", "dis", "farneback", "deepflow", "tvl1")),
         "makeup": " ".join(

@@ -22,10 +22,11 @@ def skin(
     *,
     rim: Annotated[float, Field(ge=0, le=1)] = 0.25,
 ) -> Mask:
-    """The face label (with ears and neck), and all that is deep inside the mesh, whatever colour it has been painted.
+    """The face label (with ears and neck), and all that is deep inside the mesh and no hair, whatever its colour.
 
     A classifier that has learned what skin looks like takes a blue lip or a green stripe for something else. Eyes,
-    brows, nose and lips are part of a face; hair hangs in from its outline, so towards that the label decides.
+    brows, nose and lips are part of a face; hair hangs in from its outline, so towards that the label decides, and
+    where the label says hair it is believed.
 
     Args:
         labels: of a segmentation. surface, landmarks, features: of the same photo.
@@ -43,4 +44,4 @@ def skin(
     deep: FloatArray = np.clip(depth / np.float32(max(rim * unit, 1.0)) - 1, 0, 1)
     parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows, features.nose)
     facial = np.maximum(deep, np.minimum(2 * np.maximum.reduce(parts), 1) * surface.coverage)
-    return np.maximum(labels.face, facial)
+    return np.maximum(labels.face, facial * (1 - labels.hair))
