@@ -8,6 +8,7 @@ was asked cannot be done (exit code 2), `RunError` that doing it failed (exit co
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -163,12 +164,12 @@ class UnwritableFile(RunError):
 
 
 def nearest_names(name: str, known: Iterable[str], count: int = 3) -> list[str]:
-    """The known names most like `name`, best first; the same word with another prefix counts as near."""
+    """The known names most like `name`, best first; the same word behind another prefix ("face/light") is nearest."""
     candidates = list(known)
+    tail = re.split(r"[./]", name)[-1]
+    same_tail = [c for c in candidates if re.split(r"[./]", c)[-1] == tail]
     close = difflib.get_close_matches(name, candidates, count, cutoff=0.6)
-    tail = name.rpartition(".")[2]
-    same_tail = [c for c in candidates if c.rpartition(".")[2] == tail and c not in close]
-    return (close + same_tail)[:count]
+    return [*dict.fromkeys(same_tail + close)][:count]
 
 
 def did_you_mean(names: list[str]) -> str:

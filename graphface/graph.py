@@ -242,7 +242,7 @@ class Graph:
         found = References(complain).resolve(self.composition.scope, name, None)
         if found is None or len(found[0]) != 1:
             reason = said[0] if said else "is a list of wires"
-            raise InputError(name, reason, nearest or nearest_names(name, [*self.outputs, *self._slots]))
+            raise InputError(name, reason, nearest_names(name, [*self.outputs, *self._slots]) or nearest)
         target = found[0][0]
         if target.name not in self._slots:
             raise InputError(name, "no output or node of this name", nearest_names(name, [*self.outputs, *self._slots]))
