@@ -1,8 +1,8 @@
 """The nine regions of detail transfer, and the eyes, nose and mouth that makeup leaves alone.
 
 Regions are drawn once, on the mean face seen from the front, as soft masks in its own coordinates (`atlas`). The 468
-points say which place of the mean face every pixel of a photo shows, so one look-up projects all regions to any face, whatever
-its pose and expression. Left and right are the person's own.
+points say which place of the mean face every pixel of a photo shows, so one look-up projects all regions to any face,
+whatever its pose and expression. Left and right are the person's own.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def features(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.12) -
 
 
 def face_coordinates(photo: Image, landmarks: Landmarks) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Which place of the mean face each pixel shows: x, y in inter-ocular distances, H x W; and 1 where there is one."""
+    """Which place of the mean face each pixel shows: x, y in inter-ocular distances, and 1 where there is one; H x W."""
     mesh = facemesh(landmarks)
     surface = rasterize(mesh, photo, smoothing=0)
     corners = facemesh_topology().mean[mesh.triangles]

@@ -19,9 +19,9 @@ from graphface.nodes.masks.features import PixelFeatures
 from graphface.nodes.masks.hair import Hair, skin_mixture, thinned
 from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.masks.mixture import Mixture, fit_mixture
-from graphface.nodes.masks.prior import BACKDROP, CLOTHES, FACE, HAIR, Layout, layout_of, log_prior, log_sum_exp
+from graphface.nodes.masks.prior import BACKDROP, CLOTHES, FACE, HAIR, Layout, layout_of, log_prior
 from graphface.nodes.masks.smoothing import Smoothing, smoothed
-from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Mask, Segmentation
+from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
 
 Scores = FloatArray
 """h x w x 4, in the order FACE, HAIR, BACKDROP, CLOTHES."""
@@ -102,9 +102,7 @@ def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, response: FloatArray
     return belief
 
 
-def _likelihoods(
-    values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_], components: int
-) -> Scores:
+def _likelihoods(values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_], components: int) -> Scores:
     """log p(features | class) of every pixel; a class without samples is told by nothing but its place."""
     flat = values.reshape(-1, values.shape[2])
     fitted: list[Mixture | None] = [skin_mixture(values, skin, components)]
@@ -118,7 +116,8 @@ def _likelihoods(
         warn("masks.classify: no pixel has finite features; labels follow from their place alone")
         return np.zeros((*values.shape[:2], 4), np.float32)
     anything = broad.log_likelihood(flat) + np.log(OPENNESS)
-    scores = [anything - np.log(OPENNESS) + UNKNOWN if m is None else np.logaddexp(m.log_likelihood(flat), anything) for m in fitted]
+    unknown = anything - np.log(OPENNESS) + UNKNOWN
+    scores = [unknown if m is None else np.logaddexp(m.log_likelihood(flat), anything) for m in fitted]
     return np.stack(scores, axis=1).reshape(*values.shape[:2], 4).astype(np.float32, copy=False)
 
 

@@ -19,7 +19,7 @@ FeatureSet = Literal["color", "color+mr8"]
 TEXTURE_GAIN = 8.0
 """Responses are this many times amplified, then compressed by asinh: a strand counts, a hard edge not for ever more."""
 
-TEXTURE_WEIGHTS = np.repeat(np.float32([0.02, 0.01, 0.005]), 2).tolist() + [0.005, 0.005]
+TEXTURE_WEIGHTS = (0.02, 0.02, 0.01, 0.01, 0.005, 0.005, 0.005, 0.005)
 """Scales of the eight responses beside colour: the wider a filter reaches, the less it says about this very pixel.
 
 Mixtures have a least width, so a small scale blurs small differences. Just beside a head wide filters see the head, and
@@ -74,7 +74,9 @@ def features(
     if kind == "color":
         return color
     grey = np.asarray(cv2.cvtColor(clean, cv2.COLOR_RGB2GRAY), np.float32)
-    return np.concatenate([color, np.arcsinh(TEXTURE_GAIN * mr8(grey, bank)) * np.float32(TEXTURE_WEIGHTS)], axis=2, dtype=np.float32)
+    return np.concatenate(
+        [color, np.arcsinh(TEXTURE_GAIN * mr8(grey, bank)) * np.float32(TEXTURE_WEIGHTS)], axis=2, dtype=np.float32
+    )
 
 
 def in_space(pixels: FloatArray, space: ColorSpace) -> FloatArray:

@@ -16,9 +16,9 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.masks.features import PixelFeatures
+from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.masks.mixture import Mixture, fit_mixture
 from graphface.nodes.masks.prior import layout_of, log_sum_exp
-from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.types import FloatArray, HeadMasks, Landmarks, Mask
 
 SAMPLES = 2000
@@ -61,9 +61,7 @@ def hair(
     """
     window, values = features.window, features.values
     layout = layout_of(landmarks, window)
-    conservative, normal, aggressive = (
-        window.shrunk(m) for m in (masks.conservative, masks.normal, masks.aggressive)
-    )
+    conservative, normal, aggressive = (window.shrunk(m) for m in (masks.conservative, masks.normal, masks.aggressive))
     shape = masks.normal.shape
     top = (normal > 0.5) & (layout.outline > 0.05) & (layout.high > EYE_LINE + 0.15)
     skin = skin_mixture(values, (conservative > 0.5) & ~layout.features, components)

@@ -3,8 +3,8 @@
 The built-in model ends at the hairline, the jaw and the ears. The mean face is posed onto the landmarks (position,
 turn and one scale: a weak perspective), and solids that stand in the mean face's frame are posed with it. Their sizes
 are adult means from anthropometry, divided by the distance between the outer eye corners (9.0 cm): head breadth
-15.2 cm, head length 19.4 cm, eye line to crown 11.3 cm, ear length 6.3 cm, neck breadth 11.5 cm (Farkas, Anthropometry
-of the Head and Face, 1994; ANSUR, 1988; means of men and women). A solid's outline is the convex hull of its projected points.
+15.2 cm, head length 19.4 cm, eye line to crown 11.3 cm, ear length 6.3 cm, neck breadth 11.5 cm (after Farkas,
+Anthropometry of the Head and Face, 1994, rounded). A solid's outline is the convex hull of its projected points.
 
 Frame of the mean face: unit = distance between the outer eye corners, x to the picture's right, y up, z to the viewer,
 origin at the mean of the 468 points; the eye line is at y = 0.34, the chin at -0.90.
@@ -105,7 +105,7 @@ def neck(pose: Pose) -> Points:
     """Outline of the neck from under the jaw to the collar bone, pixels (n, 2)."""
     angle = np.linspace(0, 2 * np.pi, 48, endpoint=False)
     ring = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1) * NECK_RADIUS
-    ends = [ring + (0, height, NECK_DEPTH) for height in (NECK_TOP, NECK_BOTTOM)]
+    ends = [ring + np.array([0, height, NECK_DEPTH]) for height in (NECK_TOP, NECK_BOTTOM)]
     return _hull(pose.project(np.concatenate(ends)))
 
 

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Samples = NDArray[np.floating[Any]]
 
 MULTIPLICATIONS = 1 << 17
-"""In one matrix product. Above twice this OpenBLAS starts threads; beside the engine's own they only wait for each other, and
+"""In one matrix product. Above twice this OpenBLAS starts threads; beside the engine's own they wait for each other, and
 with all cores busy that was measured to take fifty times as long."""
 
 

@@ -31,7 +31,9 @@ def given_head(
     """Conservative, normal and aggressive mask, each the given one where there is one."""
     parts = {"conservative": conservative, "normal": normal, "aggressive": aggressive}
     shape = _shape(parts, computed.normal.shape if computed is not None else None)
-    chosen = [_checked(name, part, shape) if part is not None else getattr(computed, name) for name, part in parts.items()]
+    chosen = [
+        _checked(name, part, shape) if part is not None else getattr(computed, name) for name, part in parts.items()
+    ]
     return HeadMasks(*chosen)
 
 
@@ -61,8 +63,8 @@ def given_labels(
 ) -> Segmentation:
     """Labels with given ones put in their place; they still sum to 1.
 
-    Given labels that exceed 1 together are scaled down; what they leave is shared by the computed others in their own proportion, and
-    is background where those are 0.
+    Given labels that exceed 1 together are scaled down; what they leave is shared by the computed others in their own
+    proportion, and is background where those are 0.
     """
     given = {"face": face, "hair": hair, "background": background}
     if computed is not None and all(part is None for part in given.values()):
@@ -91,7 +93,7 @@ def _checked(name: str, given: FloatArray, shape: tuple[int, ...]) -> FloatArray
     """
     if given.shape != shape:
         raise UsageError(
-            f"the given {name} mask is {given.shape[1]} x {given.shape[0]} pixels and the photo {shape[1]} x {shape[0]}; "
+            f"the given {name} mask is {given.shape[1]} x {given.shape[0]} pixels, the photo {shape[1]} x {shape[0]}; "
             "paint it over the photo itself"
         )
     return np.clip(np.nan_to_num(given, nan=0, posinf=1, neginf=0), 0, 1).astype(np.float32, copy=False)

