@@ -34,6 +34,7 @@ pack = Pack(
         "render": "graphface.nodes.render.shade graphface.nodes.render.shadows graphface.nodes.render.spread "
         "graphface.nodes.render.head graphface.nodes.render.skin graphface.nodes.render.specular "
         "graphface.nodes.render.composite graphface.nodes.render.relit",
+        "light": "graphface.nodes.render.light_of",
         "scatter": "graphface.nodes.scatter.none graphface.nodes.scatter.gaussian graphface.nodes.scatter.screen_space",
         "transfer": "graphface.nodes.transfer",
         "warp": "graphface.nodes.warp.mesh graphface.nodes.warp.resample",

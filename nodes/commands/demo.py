@@ -40,7 +40,7 @@ def demo(
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UnwritableFile(folder, error.strerror or str(error)) from None
-    given = photo if photo is not None else _astronaut()
+    given = photo if photo is not None else astronaut()
     graph = load("relight")
     asked = ["image", "photo", "face.mesh", "face.landmarks", *(name for name, _ in _STAGES.values())]
     records, relit, results = [], {}, None
@@ -73,7 +73,7 @@ def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
     return contact_sheet(cells, columns=4)
 
 
-def _astronaut() -> Any:
+def astronaut() -> Any:
     """The photograph that scikit-image carries: uint8, 512 x 512 x 3."""
     from skimage.data import astronaut
 

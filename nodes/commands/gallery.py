@@ -1,0 +1,56 @@
+"""`graphface gallery`: a photograph under every scene."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def gallery(
+    folder: Annotated[Path, typer.Argument(help="Folder for the pictures; made if missing.")] = Path("gallery"),
+    photo: Annotated[list[Path] | None, typer.Option(help="Photographs; scikit-image's astronaut by default.")] = None,
+    scene: Annotated[list[Path] | None, typer.Option(help="Scene files; all shipped ones by default.")] = None,
+    profile: Annotated[list[str] | None, typer.Option(help="Profiles of the relight graph, such as draft.")] = None,
+    columns: Annotated[int, typer.Option(min=1, help="Pictures in a row of the sheet.")] = 6,
+) -> None:
+    """Relight photographs under every scene; one picture each and a contact sheet for each photograph."""
+    import os
+
+    from graphface import Evaluator, MemoryTier, UnwritableFile, load
+    from graphface.nodes.commands.demo import astronaut
+    from graphface.nodes.commands.sheet import around_face, contact_sheet
+    from graphface.nodes.image import write_picture
+    from graphface.nodes.types import Image
+    from graphface.outputs import write_output
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UnwritableFile(folder, error.strerror or str(error)) from None
+    graph = load("relight", profiles=profile or ())
+    scenes = scene or shipped_scenes()
+    kind = graph.type_of(graph.outputs["image"])
+    for given in photo or [None]:
+        name = "astronaut" if given is None else given.stem
+        source = astronaut() if given is None else given
+        evaluator = Evaluator(memory=MemoryTier(), threads=os.cpu_count() or 1)
+        cells = []
+        for path in scenes:
+            asked = ["image", "photo", "face.landmarks"]
+            found = graph.run(asked, evaluator=evaluator, photo=source, scene=path)
+            near = around_face(found["face.landmarks"], found["photo"])
+            if not cells:
+                cells.append((name, Image.picture(found["photo"])[near]))
+            cells.append((path.stem, Image.picture(found["image"])[near]))
+            write_output(found["image"], kind, folder / f"{name}-{path.stem}.png")
+        write_picture(contact_sheet(cells, columns=columns, width=300), folder / f"{name}-sheet.png")
+    print(f"wrote {len(photo or [None]) * len(scenes)} pictures and {len(photo or [None])} sheets to {folder}/")
+
+
+def shipped_scenes() -> list[Path]:
+    """The scene files that come with graphface, by name."""
+    import graphface.graphs
+
+    return sorted((Path(graphface.graphs.__file__ or "").parent / "scenes").glob("*.yaml"))
