@@ -209,3 +209,11 @@ class TestCommand:
         """--peaks adds the peak of memory of every node."""
         _, said = self.run(tmp_path, "-i", "x=1", "--peaks", "-o", f"grid={tmp_path}/grid.npy")
         assert nodes_of(said)["grid"]["peak_bytes"] >= 128 * 128 * 8
+
+    def test_peaks_without_trace(self, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        """--peaks without a trace to stand in is a mistake."""
+        (tmp_path / "graph.yaml").write_text("graphface: 1\nnodes: {}\n")
+        with pytest.raises(SystemExit) as left:
+            main(["run", str(tmp_path / "graph.yaml"), "--peaks", "-o", "x.npy"])
+        assert left.value.code == 2
+        assert "--trace" in capsys.readouterr().err

@@ -69,6 +69,8 @@ def run(
 
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
+    if peaks and trace is None:
+        raise UsageError("--peaks is measured for the trace; add --trace run.json")
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     given = read_inputs(inputs)
     if maps:
