@@ -54,6 +54,15 @@ def _grey() -> np.ndarray:
     return _photo().pixels.mean(axis=2)
 
 
+def _surface() -> Any:
+    return default_registry().operator("surface.rasterize").function(_mesh(), _photo())
+
+
+def _points() -> Landmarks:
+    points = np.random.default_rng(5).uniform(8, 24, (468, 3)).astype(np.float32)
+    return Landmarks(points, "facemesh468")
+
+
 CASES = [
     Case("image.encode", lambda: (_photo(),), {"encoding": "linear"}),
     Case("image.resize", lambda: (_photo(),), {"long_side": 20}),
@@ -62,6 +71,9 @@ CASES = [
     Case("sh.render", lambda: (Lighting(np.array([2, 0.1, 0.5, 0.2], np.float32)), _dome())),
     Case("detail.additive", lambda: (_photo(), _photo().pixels, _grey())),
     Case("detail.multiplicative", lambda: (_photo(), _photo().pixels, _grey())),
+    Case("detail.none", lambda: (_photo(), _photo().pixels, _grey())),
+    Case("masks.face", lambda: (_surface(), _points())),
+    Case("render.spread", lambda: (_grey(), _disc(), _surface(), _points())),
     Case("surface.rasterize", lambda: (_mesh(), _photo())),
 ]
 
