@@ -44,4 +44,5 @@ def facemesh(landmarks: Landmarks, *, depth: Annotated[float, Field(gt=0, le=4)]
         camera=Camera(center=(float(center[0]), float(center[1]))),
         interocular=landmarks.interocular,
         uv=cylinder(topology.mean).astype(np.float32),
+        mirror=topology.mirror,
     )

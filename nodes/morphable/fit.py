@@ -15,6 +15,7 @@ from graphface.nodes.landmarks.given import UnusableLandmarks
 from graphface.nodes.landmarks.schemes import ibug68
 from graphface.nodes.morphable.contour import CHIN, JAW_POINTS, jaw_lines, seen
 from graphface.nodes.morphable.focal import focal_length
+from graphface.nodes.morphable.mirror import mirror_vertices
 from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
 from graphface.nodes.morphable.normals import vertex_normals
 from graphface.nodes.morphable.pose import Pose, closed_form
@@ -57,7 +58,7 @@ _THIN = 50.0
 class Settings:
     """See `morphable` for what each means."""
 
-    camera: CameraChoice = "assumed"
+    camera: CameraChoice = "weak"
     distance: float = 10.0
     prior: PriorChoice = "mixture"
     strength: float = 1.0
@@ -298,6 +299,7 @@ def _mesh(ready: _Ready, task: _Task, solution: Solution, index: int) -> Mesh:
         camera=Camera(center=task.center, nearness=view.near / view.scale),
         interocular=_between_eyes(model, vertices, view.scale),
         uv=model.uv,
+        mirror=mirror_vertices(model),
         fit=FitRecord(
             model=model.name,
             identity=coefficients[:split].astype(np.float32),

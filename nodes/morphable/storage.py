@@ -21,7 +21,7 @@ import numpy as np
 from graphface import UnreadableFile, UnwritableFile
 from graphface.nodes.morphable.model import Basis, InvalidModel, MorphableModel
 from graphface.nodes.morphable.prior import Mixture
-from graphface.nodes.morphable.subdivide import interpolating_loop
+from graphface.nodes.morphable.subdivide import loop
 
 FORMAT = "graphface-morphable-1"
 _WORDS = ("format", "name", "identity_names", "expression_names", "part_names")
@@ -98,21 +98,21 @@ def save_model(model: MorphableModel, path: Path, *, half: bool = False) -> None
 
 
 def refined(model: MorphableModel, levels: int) -> MorphableModel:
-    """The same model on a finer, smoother mesh; the old vertices keep their numbers and places."""
-    matrix, triangles = interpolating_loop(model.triangles, len(model.mean), levels)
-    finer = matrix.astype(np.float32)
+    """The same model on a finer, smoother mesh; the old vertices keep their numbers."""
+    matrix, triangles = loop(model.triangles, len(model.mean), levels)
+    finer = matrix.toarray().astype(np.float32)
 
     def of(basis: Basis) -> Basis:
         return replace(basis, directions=np.matmul(finer, basis.directions))
 
     return replace(
         model,
-        mean=(matrix @ model.mean).astype(np.float32),
+        mean=(matrix @ model.mean.astype(np.float64)).astype(np.float32),
         triangles=triangles,
         identity=of(model.identity),
         expression=of(model.expression),
         uv=None if model.uv is None else finer @ model.uv,
-        parts=None if model.parts is None else model.parts[np.abs(matrix).argmax(axis=1)],
+        parts=None if model.parts is None else model.parts[finer.argmax(axis=1)],
     )
 
 
