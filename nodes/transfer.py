@@ -9,8 +9,9 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.makeup.features import Features
 from graphface.nodes.regions import Regions
-from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
+from graphface.nodes.types import Albedo, DetailMap, FloatArray, Landmarks, Mask
 from graphface.nodes.warp.correspondence import Correspondence
 
 Region = Literal[
@@ -34,17 +35,20 @@ REGIONS: tuple[Region, ...] = Region.__args__  # type: ignore[attr-defined]
 def mask(
     regions: Regions,
     correspondence: Correspondence,
+    features: Features | None = None,
     skin: Mask | None = None,
     given: Mask | None = None,
     *,
     take: tuple[Region, ...] = REGIONS,
     strength: Strength = 1.0,
     strengths: dict[Region, Strength] = {},  # noqa: B006 - pydantic copies it
+    openings: Strength = 0.0,
 ) -> Mask:
     """How much of the reference's detail each pixel gets.
 
     Args:
         regions: the input's. correspondence: parts that the reference hides keep the input's detail.
+        features: the input's; `openings` of its eyes and mouth get that share (a gaze and teeth are no detail of skin).
         skin: where the input's detail may be changed; hair in front of the face is not skin.
         given: a user's own mask, multiplied on top.
         take: which regions; none leaves the photo as it is. Left and right are the person's own.
@@ -59,6 +63,8 @@ def mask(
     for name in dict.fromkeys(take):
         total += getattr(regions, name) * np.float32(strengths.get(name, strength))
     total *= correspondence.known * correspondence.inside
+    if features is not None:
+        total *= 1 - np.maximum(features.eyes, features.mouth) * np.float32(1 - min(openings, 1))
     for factor in (skin, given):
         if factor is not None:
             total *= np.clip(factor, 0, 1)
@@ -72,7 +78,7 @@ def detail(
     mask: Mask,
     landmarks: Landmarks,
     *,
-    broadest: Scale | None = 0.35,
+    broadest: Scale | None = 0.2,
     finest: Annotated[float, Field(ge=0, le=2)] = 0.0,
 ) -> DetailMap:
     """The input's detail map with a band of the reference's in its place, as far as the mask says.
@@ -99,6 +105,30 @@ def detail(
         own, other = (v if v is not None else neutral((*mask.shape, 3), np.float32) for v in (own, other))
         parts[field.name] = _exchanged(own, other, mask, broadest and broadest * unit, finest * unit)
     return replace(detail, **parts)
+
+
+@node("transfer.recoloured")
+def recoloured(
+    detail: DetailMap,
+    reference: Albedo,
+    albedo: Albedo,
+    *,
+    floor: Annotated[float, Field(gt=0, le=1)] = 0.1,
+    most: Annotated[float, Field(ge=1, le=16)] = 3.0,
+) -> DetailMap:
+    """The reference's detail on the input's albedo: a wrinkle darkens the skin that it lies in.
+
+    The additive map is rho (s - SH), so its colour is the albedo's; taken as it is, the shadow of a red cheek would
+    leave a green patch on a pale one.
+
+    Args:
+        reference, albedo: the reference's, warped to the input, and the input's.
+        floor: least albedo divided by. most: largest factor either way.
+    """
+    ratio = albedo / np.maximum(reference, np.float32(floor))
+    ratio = np.clip(ratio, np.float32(1 / most), np.float32(most))
+    pivot = None if detail.pivot is None else detail.pivot * ratio
+    return replace(detail, offset=detail.offset * ratio, pivot=pivot)
 
 
 def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float | None, finest: float) -> FloatArray:

@@ -6,6 +6,7 @@ a person's skin has is in two places, and both are moved by the same parameter.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -68,13 +69,11 @@ def exposed(detail: DetailMap, estimated: Shading, reference: Shading, mask: Mas
 
     What the reference's skin shows in its own exposure is scaled with the lightness that it is rendered in.
     """
-    from dataclasses import replace
-
     if tone == 1:
         return detail
     factor = np.float32(lightness(estimated, reference, mask) ** (tone - 1))
-    pivot = {"pivot": p * factor} if (p := getattr(detail, "pivot", None)) is not None else {}
-    return replace(detail, offset=detail.offset * factor, **pivot)
+    pivot = None if detail.pivot is None else detail.pivot * factor
+    return replace(detail, offset=detail.offset * factor, pivot=pivot)
 
 
 def lightness(estimated: Shading, reference: Shading, mask: Mask) -> float:
