@@ -15,10 +15,7 @@ def points_seen(mesh: Mesh, surface: Surface, scale: float = 1.0) -> tuple[Float
         points (n, 3) in the camera frame, inter-ocular distances; normals (n, 3); covered, bool, the grid's h x w.
     """
     height, width = surface.coverage.shape
-    if scale >= 1:
-        rows, columns = np.arange(height), np.arange(width)
-    else:
-        rows, columns = (_middles(n, max(1, round(n * scale))) for n in (height, width))
+    rows, columns = (grid_middles(n, scale) for n in (height, width))
     grid = np.ix_(rows, columns)
     covered = surface.coverage[grid] > 0
     down, across = np.nonzero(covered)
@@ -41,6 +38,9 @@ def lifted_pixels(u: NDArray[np.intp], v: NDArray[np.intp], depth: FloatArray, c
     return np.stack([x, y, depth], axis=1).astype(np.float32)
 
 
-def _middles(length: int, parts: int) -> NDArray[np.intp]:
-    """The pixel in the middle of each of `parts` equal stretches."""
+def grid_middles(length: int, scale: float) -> NDArray[np.intp]:
+    """The pixels in the middle of equal stretches, `scale` of them a pixel; all where that is 1 or more."""
+    if scale >= 1:
+        return np.arange(length)
+    parts = max(1, round(length * scale))
     return ((np.arange(parts) + 0.5) * (length / parts)).astype(np.intp)

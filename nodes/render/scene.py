@@ -99,11 +99,6 @@ class Scene(Part):
             and _toward_viewer(light) > _BEHIND
         }
 
-    @property
-    def labelled(self) -> bool:
-        """Whether hair or background are lit otherwise than the face."""
-        return self.background != 1 or self.hair != 0
-
     @classmethod
     def from_file(cls, path: Path) -> Scene:
         """Read a scene file.

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import Lazy, Needs, node
 from graphface.nodes.colour import decode_srgb, encode_srgb
 from graphface.nodes.render.irradiance import irradiance
-from graphface.nodes.render.places import surface_points
+from graphface.nodes.render.places import grid_middles, lifted_pixels
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.sh import has_surface
@@ -18,11 +19,9 @@ from graphface.nodes.types import FloatArray, Image, Mask, Mesh, Normals, Shadin
 
 
 def _wanted(scene: Scene) -> Needs:
-    far = "no light of the scene is near, so places on the face do not matter"
     return {
         "shadows": bool(scene.casting) or "no light of the scene casts a shadow that the camera could see",
-        "mesh": scene.local or far,
-        "surface": scene.local or far,
+        "surface": scene.local or "no light of the scene is near, so places on the face do not matter",
     }
 
 
@@ -33,10 +32,11 @@ def shade(
     estimated: Shading,
     mask: Mask,
     photo: Image,
-    mesh: Lazy[Mesh] = None,
+    mesh: Mesh | None = None,
     surface: Lazy[Surface] = None,
     shadows: Lazy[Shadows] = None,
     *,
+    detail: Annotated[float, Field(ge=8, le=4096)] = 96,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Shading:
     """The face's shading under a scene: spherical harmonics, and Lambert's cosine for the other lights.
@@ -52,37 +52,68 @@ def shade(
             light.
         mask: the face, over which brightness is compared.
         photo: gives the encoding.
-        mesh, surface: where the pixels lie, for lights that stand near; without them all lie at the face's middle.
+        mesh: tells the size of the face; without it every pixel is shaded.
+        surface: where the pixels lie, for lights that stand near; without it all lie at the face's middle.
         shadows: what of each light arrives; without them everything does.
+        detail: points shaded per inter-ocular distance. The change of light is as smooth as the mesh's normals, so that it
+            is found on a grid and enlarged; the estimated shading, to which it is added, keeps every pixel.
         floor: least mean irradiance, in the photo's unit, that `keep_mean` scales up; a darker scene stays darker.
 
     Returns:
         float32 in the photo's encoding, H x W, or H x W x 3 where the scene (or the estimate) is coloured.
     """
-    covered = has_surface(normals)
-    old = estimated[covered].astype(np.float32, copy=False)
+    grid, covered = _grid(normals, detail / max(float(mesh.interocular), 1e-3) if mesh is not None else 1.0)
     encoded = photo.encoding == "srgb"
-    old = np.maximum(decode_srgb(old) if encoded else old, 0)
-    points = None
-    if mesh is not None and surface is not None:
-        points = surface_points(covered, surface, mesh)
-    visible = {} if shadows is None else {n: shadows.of(n, mask.shape)[covered] for n in shadows.lights}
-    new = irradiance(scene, normals[covered], points, visible)
+    before = estimated[grid][covered].astype(np.float32, copy=False)
+    old = np.maximum(decode_srgb(before) if encoded else before, 0)
+    points = None if mesh is None or surface is None or not scene.local else _points(grid, covered, surface, mesh)
+    visible = {} if shadows is None else {n: shadows.of(n, covered.shape)[covered] for n in shadows.lights}
+    new = irradiance(scene, normals[grid][covered], points, visible)
     if new.ndim < old.ndim:
         new = new[:, None]
     elif old.ndim < new.ndim:
-        old = old[:, None]
+        old, before = old[:, None], before[:, None]
 
-    weights = mask[covered]
-    gain = light_gain(scene, new, old, weights, floor)
+    gain = light_gain(scene, new, old, mask[grid][covered], floor)
     if scene.mode == "add":
         linear = old + gain * new
     else:
         share = scene.mix if scene.mode == "mix" else 1.0
         linear = old + share * (gain * new - old)
-    shading = np.zeros((*covered.shape, *linear.shape[1:]), np.float32)
-    shading[covered] = encode_srgb(linear.astype(np.float32)) if encoded else linear
-    return shading
+    change = np.zeros((*covered.shape, *linear.shape[1:]), np.float32)
+    change[covered] = (encode_srgb(linear.astype(np.float32)) if encoded else linear) - before
+    return _changed(estimated, change, normals)
+
+
+def _grid(normals: Normals, scale: float) -> tuple[tuple[NDArray[np.intp], NDArray[np.intp]], NDArray[np.bool_]]:
+    """Rows and columns, `scale` of them a pixel and at most all, and where they meet a surface."""
+    rows, columns = (grid_middles(n, scale) for n in normals.shape[:2])
+    grid = np.ix_(rows, columns)
+    return grid, has_surface(normals[grid])
+
+
+def _points(
+    grid: tuple[NDArray[np.intp], NDArray[np.intp]], covered: NDArray[np.bool_], surface: Surface, mesh: Mesh
+) -> FloatArray:
+    """Where the covered points of the grid lie, inter-ocular distances: (n, 3)."""
+    down, across = np.nonzero(covered)
+    v, u = grid[0].reshape(-1)[down], grid[1].reshape(-1)[across]
+    return lifted_pixels(u, v, surface.depth[v, u], mesh.camera) / np.float32(max(mesh.interocular, 1e-3))
+
+
+def _changed(estimated: Shading, change: FloatArray, normals: Normals) -> Shading:
+    """The estimated shading plus a change known on a grid; 0 where there is no surface."""
+    import cv2
+
+    height, width = estimated.shape[:2]
+    if change.shape[:2] != (height, width):
+        change = np.asarray(cv2.resize(change, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
+    if change.ndim > estimated.ndim:
+        estimated = estimated[..., None]
+    shading = np.maximum(estimated + change, 0)
+    covered = has_surface(normals)
+    shading *= covered if shading.ndim == 2 else covered[..., None]
+    return shading.astype(np.float32, copy=False)
 
 
 def light_gain(scene: Scene, new: FloatArray, old: FloatArray, weights: FloatArray, floor: float = 0.05) -> float:
