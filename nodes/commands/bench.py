@@ -199,3 +199,66 @@ def _lights_row(
     each = [fmean(f[kind] for light, f in found if light == wanted) for wanted in lights]
     whole, ssim = fmean(f[kind] for _, f in found), fmean(f["ssim"] for _, f in found)
     return (name, *(f"{value:.{digits}f}" for value in each), f"{whole:.{digits}f}", f"{ssim:.3f}", took)
+
+
+@app.command()
+def intrinsic(
+    data: Data = Path("../shared/data"),
+    method: Annotated[list[str] | None, typer.Option(help="Methods of the family; all by default.")] = None,
+    csv: Annotated[Path | None, typer.Option(help="Write every figure here as well.")] = None,
+) -> None:
+    """Albedo and shading errors of the intrinsic methods on path-traced heads, with milliseconds."""
+    from graphface.nodes.commands.intrinsic_truth import intrinsic_truth
+    from graphface.registry import default_registry
+    from graphface.terminal import print_table
+
+    registry = default_registry()
+    base = registry.operator("intrinsic.intensity")
+    names = [base.name, *(operator.name for operator in registry.alternatives(base))]
+    asked = [name if "." in name else f"intrinsic.{name}" for name in method or names]
+    figures = list(intrinsic_truth(data, {name: registry.operator(name).function for name in asked}))
+    measures = ("albedo_si_mse", "albedo_lmse", "shading_si_mse", "shading_lmse", "milliseconds")
+    rows = [(name, *_means([f for f in figures if f.method == name], measures)) for name in asked]
+    print_table(("method", *(f">{measure.replace('_', ' ')}" for measure in measures)), rows)
+    _write_csv(figures, csv)
+
+
+@app.command()
+def light(
+    data: Data = Path("../shared/data"),
+    csv: Annotated[Path | None, typer.Option(help="Write every figure here as well.")] = None,
+) -> None:
+    """Error of the direction of light that `sh.fit` finds on path-traced heads, by order and robustness."""
+    from graphface.nodes.commands.intrinsic_truth import light_truth
+    from graphface.terminal import print_table
+
+    figures = list(light_truth(data))
+    measures = ("mesh_degrees", "true_degrees", "milliseconds")
+    kinds = dict.fromkeys((f.order, f.robust) for f in figures)
+    rows = [
+        (str(o), r, *_means([f for f in figures if (f.order, f.robust) == (o, r)], measures)) for o, r in kinds
+    ]
+    print_table(("order", "robust", ">FaceMesh normals, degrees", ">true normals, degrees", ">milliseconds"), rows)
+    _write_csv(figures, csv)
+
+
+def _means(figures: Sequence[object], measures: Iterable[str]) -> list[str]:
+    """Mean of each measure; of times the median, which a busy machine spoils less."""
+    from statistics import mean, median
+
+    return [
+        f"{(median if name == 'milliseconds' else mean)([getattr(f, name) for f in figures]):.4g}" for name in measures
+    ]
+
+
+def _write_csv(figures: Sequence[Any], path: Path | None) -> None:
+    """One line for each figure; nothing without a path."""
+    if path is None or not figures:
+        return
+    from csv import DictWriter
+    from dataclasses import asdict
+
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = DictWriter(file, list(asdict(figures[0])))
+        writer.writeheader()
+        writer.writerows(asdict(figure) for figure in figures)
