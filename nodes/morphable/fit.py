@@ -41,8 +41,8 @@ LEAST_POINTS = 6
 """Landmarks below which there is no fit: a pose has six unknowns, and each point gives two numbers."""
 
 _INDEPENDENT = 68
-"""Points of a mesh err together: more of them than this tell no more (against path-traced heads, fitting the Surrey model
-to 459 points as if each erred alone turns normals by 4 degrees more than fitting it to 66)."""
+"""Points of a mesh err together: more of them than this tell no more. (Against path-traced heads, fitting the Surrey
+model to 459 points as if each erred alone makes the normals 4 degrees worse than fitting it to 66.)"""
 
 _STRAY = 0.05
 """How far an estimated inverse distance may stray from the assumed one: one standard deviation, per eye distance."""

@@ -3,9 +3,10 @@
     sum_i h(|project(s R F_i(x) + t) - l_i|^2 / (s0 noise)^2)  +  strength * (-log p(x))  +  (n - n0)^2 / dn^2
 
 over turn R, size s, offset t, inverse distance n and coefficients x = (identity, expression), by Levenberg and
-Marquardt with analytic derivatives. h is Geman and McClure's robust loss, handled by reweighting; p the mixture of the paper,
-handled by its quadratic bound (`prior.quadratic`). Several photographs of one person are solved together: each has its
-own pose and expression, all have one identity. Everything is float64, y up, pixels relative to the principal point.
+Marquardt with analytic derivatives. h is Geman and McClure's robust loss, handled by reweighting; p the mixture of the
+paper, handled by its quadratic bound (`prior.quadratic`). Several photographs of one person are solved together: each
+has its own pose and expression, all have one identity. Everything is float64, y up, in pixels from
+the principal point.
 """
 
 from __future__ import annotations
@@ -37,8 +38,8 @@ class Problem:
 
     `mean` (L, 3) and `directions` (K, L, 3) of the landmark vertices; `points` (L, 2) y up; `weights` (L,).
     `noise` of a point and `robust`, the error from which it loses influence, in outer-eye-corner distances; `pixel`,
-    how many pixels that distance has. `nearness` = (n0, dn): inverse camera distance and how far it may stray; (0, 0) is
-    the weak perspective.
+    how many pixels that distance has. `nearness` = (n0, dn): inverse camera distance and how far it may stray; (0, 0)
+    is the weak perspective.
     """
 
     mean: Array

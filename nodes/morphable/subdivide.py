@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 def loop(triangles: NDArray[np.int32], vertices: int, levels: int = 1) -> tuple[Any, NDArray[np.int32]]:
     """The sparse map (W, V) from V vertices to the W of the refined mesh, and the refined triangles.
 
-    The old vertices keep their numbers and move a little, as Loop has it. Pushing them out beforehand, so that they come
-    to lie where they were, was tried: it sharpens the relief between them, and relit heads are 0.35 dB further from the
-    truth.
+    The old vertices keep their numbers and move a little, as Loop has it. Pushing them out beforehand, so that they
+    come to lie where they were, was tried: it sharpens the relief between them, and relit heads are 0.35 dB further
+    from the truth.
     """
     from scipy.sparse import eye_array
 

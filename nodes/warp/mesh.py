@@ -53,17 +53,19 @@ def mesh(
         places = np.zeros((*inside.shape, 2), np.float32)
         return Correspondence(places, inside, np.zeros_like(inside), size)
 
-    shown = _shown_vertices(reference_surface, reference_mesh, facing)
-    places, valid = _carried(surface, reference_mesh, shown, np.arange(len(shown)), reference_mask, size)
+    # Nothing needs to be seen better in the reference than it is in the input.
+    own, shown = (_shown_vertices(s, m, facing) for s, m in ((surface, mesh), (reference_surface, reference_mesh)))
+    places, valid = _carried(surface, reference_mesh, own, shown, np.arange(len(own)), reference_mask, size)
     if pins is not None and len(pins.points):
         places = places + _pinned(places, pins, pin_reach * mesh.interocular)
-    mirror = _mirror_vertices(len(mesh.vertices))
+    mirror = mesh.mirror if mesh.mirror is not None else _mirror_vertices(len(mesh.vertices))
     if hidden == "input" or mirror is None:
         if hidden == "mirror":
             warn("warp.mesh: this mesh has no known mirror image; what the reference hides stays the input's")
         return Correspondence(places, inside, valid, size)
-    mirrored, mirrored_valid = _carried(surface, reference_mesh, shown, mirror, reference_mask, size)
-    return Correspondence(places, inside, valid, size, mirrored, mirrored_valid * (1 - valid))
+    mirrored, mirrored_valid = _carried(surface, reference_mesh, own, shown, mirror, reference_mask, size)
+    mirrored_valid *= np.clip((0.5 - valid) * 2, 0, 1)
+    return Correspondence(places, inside, valid, size, mirrored, mirrored_valid)
 
 
 def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.float64]:
@@ -82,25 +84,29 @@ def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.f
 def _carried(
     surface: Surface,
     reference: Mesh,
+    own: NDArray[np.float64],
     shown: NDArray[np.float64],
     vertex: NDArray[Any],
     mask: Mask | None,
     size: tuple[int, int],
 ) -> tuple[FloatArray, Mask]:
     """Places H x W x 2 and validity H x W, where vertex k of the input's mesh is vertex[k] of the reference's."""
-    positions = reference.camera.project(reference.vertices.astype(np.float64))[vertex]
-    of_vertex = np.column_stack([positions, shown[vertex]]).astype(np.float32)
+    positions = reference.vertices[vertex]
+    valid_at = np.minimum(shown[vertex] / np.maximum(own, 0.05), 1)
+    of_vertex = np.column_stack([positions, valid_at]).astype(np.float32)
     triangles = reference.triangles
     rows, columns = _window(surface.coverage > 0)
     seen = surface.triangle[rows, columns]
     weights = surface.barycentric[rows, columns]
-    carried = np.zeros((*seen.shape, 3), np.float32)
+    carried = np.zeros((*seen.shape, 4), np.float32)
     for k in range(3):
         carried += weights[..., k, None] * of_vertex[triangles[:, k]].take(seen, axis=0, mode="clip")
     places = np.zeros((*surface.coverage.shape, 2), np.float32)
     valid = np.zeros(surface.coverage.shape, np.float32)
-    places[rows, columns] = carried[..., :2]
-    valid[rows, columns] = carried[..., 2] * (seen >= 0)
+    on_mesh = seen >= 0
+    # The weights are those of the point in space, so points in space are what they may mix; only then is it projected.
+    places[rows, columns] = reference.camera.project(carried[..., :3]) * on_mesh[..., None]
+    valid[rows, columns] = carried[..., 3] * on_mesh
     height, width = size
     valid[(places < -0.5).any(axis=2) | (places[..., 0] > width - 0.5) | (places[..., 1] > height - 0.5)] = 0
     if mask is not None:

@@ -1,9 +1,10 @@
 """FLAME (Li et al., Learning a model of facial shape and expression from 4D scans, 2017). Needs a licence.
 
 The makers distribute pickled dictionaries. Unpickling runs whatever a file says, so only arrays are let through: NumPy,
-SciPy's sparse matrices, and chumpy's wrapper read as the array in it. `v_template` (V, 3), `shapedirs` (V, 3, 400: 300
-identity, then expression), `f` (T, 3), `weights` (V, joints), `J_regressor` (joints, V). Skinning is not linear; opening
-the jaw, its greatest part, is kept as one more expression, linearized about the closed mouth.
+SciPy's sparse matrices, and chumpy's wrapper read as the array in it.
+`v_template` (V, 3), `shapedirs` (V, 3, 400: 300
+identity, then expression), `f` (T, 3), `weights` (V, joints), `J_regressor` (joints, V). Skinning is not linear;
+opening the jaw, its greatest part, is kept as one more expression, linearized about the closed mouth.
 """
 
 from __future__ import annotations

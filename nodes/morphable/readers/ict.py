@@ -138,7 +138,7 @@ def _differences(paths: list[Path], mean: NDArray[np.float32]) -> NDArray[np.flo
 
 
 def _read_obj(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32] | None, NDArray[np.int64]]:
-    """Vertices (V, 3), a texture coordinate for each (V, 2) or None, and polygons (F, 4); a triangle repeats its last."""
+    """Vertices (V, 3), texture coordinates (V, 2) or None, and polygons (F, 4); a triangle repeats its last."""
     vertices, texture, polygons, of_vertex = [], [], [], {}
     try:
         with path.open(encoding="utf-8", errors="replace") as lines:
