@@ -40,6 +40,7 @@ class Run:
         self, evaluator: Evaluator, graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]
     ) -> None:
         self._evaluator = evaluator
+        self._memory, self._disk = evaluator.memory, evaluator.disk
         self._graph = graph
         self._first = len(graph.inputs)
         self._bound = [bound.get(name) for name in graph.inputs]
@@ -155,8 +156,10 @@ class Run:
             self._dependents.setdefault(parent, []).append(key)
             missing += 1
         self._waiting[key] = missing
-        if missing == 0:
-            self._inputs_arrived(key)
+        if missing == 0 and key in self._undecided:
+            self._decide(key)
+        elif missing == 0:
+            self._ready.append(key)
 
     def _arrived(self, key: bytes) -> None:
         """A value is there: tell the steps that wait for it."""
@@ -165,14 +168,14 @@ class Run:
             if dependent in waiting:
                 waiting[dependent] -= 1
                 if waiting[dependent] == 0:
-                    self._inputs_arrived(dependent)
+                    if dependent in self._undecided:
+                        self._decide(dependent)
+                    else:
+                        self._ready.append(dependent)
 
-    def _inputs_arrived(self, key: bytes) -> None:
-        """All inputs demanded so far are there: ask about the lazy ones, or queue the step."""
+    def _decide(self, key: bytes) -> None:
+        """All eager inputs are there: ask the rule which lazy ones are wanted."""
         step = self._step(key)
-        if not step.lazy or key in self._declined:
-            self._ready.append(key)
-            return
         try:
             eager = {a.port: self._caller.argument(a) for a in step.arguments if not a.lazy}
             declined = declined_with(step, eager)
@@ -221,31 +224,32 @@ class Run:
         if error is not None:
             self._fail(key, error, seconds)
             return
-        arrays = freeze(value, self._lent) if type(value) is not float else ()
         self._done[key] = value
-        if not self._lent or not any(id(a) in self._lent for a in arrays):
-            self._keep(key, step, value, seconds, arrays)
         size = 0
-        if arrays:
-            size = self._sizes[key] = sum([a.nbytes for a in arrays])
-            self._live += size
-        record = Record(self._name(slot), _operator_name(step), "ran", key, seconds, cpu, size, "", said or ())
-        self._report(record, step, value)
+        arrays: tuple[Any, ...] = ()
+        if type(value) is not float:
+            arrays = freeze(value, self._lent)
+            if arrays:
+                size = self._sizes[key] = sum([a.nbytes for a in arrays])
+                self._live += size
+        if not arrays or not any(id(a) in self._lent for a in arrays):
+            if self._memory is not None:
+                self._memory.put(key, value, seconds, arrays)
+            if self._disk is not None and step is not None:
+                self._store(key, step, value, seconds)
+        self._report(
+            Record(self._name(slot), _operator_name(step), "ran", key, seconds, cpu, size, "", said or ()), step, value
+        )
         self._arrived(key)
         if self._wanted or self._spent:
             self._demand()
         if step is not None:
             self._release(step)
 
-    def _keep(self, key: bytes, step: Step | None, value: Any, seconds: float, arrays: tuple[Any, ...]) -> None:
-        """Memoize a value; what shares memory with the caller's arrays never gets here, since they may change."""
-        evaluator = self._evaluator
-        if evaluator.memory is not None:
-            evaluator.memory.put(key, value, seconds, arrays)
-        if evaluator.disk is not None and step is not None:
-            meta = {"operator": step.operator.name}
-            annotation = step.operator.output_annotation
-            evaluator.disk.put(key, value, cost_seconds=seconds, meta=meta, annotation=annotation)
+    def _store(self, key: bytes, step: Step, value: Any, seconds: float) -> None:
+        assert self._disk is not None
+        meta = {"operator": step.operator.name}
+        self._disk.put(key, value, cost_seconds=seconds, meta=meta, annotation=step.operator.output_annotation)
 
     def _release(self, step: Step) -> None:
         """Let go of values that no step of this run waits for any more, once no rule can ask for them again."""
