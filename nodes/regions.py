@@ -85,7 +85,7 @@ def features(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.12) -
 
 
 def face_coordinates(photo: Image, landmarks: Landmarks) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Which place of the mean face each pixel shows: x, y in inter-ocular distances, and 1 where there is one; H x W."""
+    """Which place of the mean face each pixel shows: x, y in inter-ocular distances, and 1 where any; H x W."""
     mesh = facemesh(landmarks)
     surface = rasterize(mesh, photo, smoothing=0)
     corners = facemesh_topology().mean[mesh.triangles]

@@ -32,7 +32,7 @@ OPENNESS = 0.02
 UNKNOWN = -1.0
 """Score of a class of which there is no sample, beside a broad Gaussian of the whole window."""
 
-STRIP = 0.12
+STRIP = 0.06
 """Width of the thinnest hair that can carry more hair, in inter-ocular distances."""
 
 NO_HAIR = 6.0
@@ -93,7 +93,7 @@ def _certain(label: int) -> FloatArray:
 def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, response: FloatArray, layout: Layout) -> FloatArray:
     """First beliefs, h x w x 4, all 0 where nothing is assigned."""
     belief = np.zeros((*sure.shape, 4), np.float32)
-    outside = (aggressive < 0.5) * (1 - 0.8 * response)
+    outside = (aggressive < 0.5) * (1 - response)
     low = layout.high < CHIN - 0.35
     belief[..., BACKDROP] = outside * ~low
     belief[..., CLOTHES] = low * np.maximum(outside, 0.5 * (layout.high < CHIN - 0.9) * (np.abs(layout.right) < 0.8))
@@ -109,7 +109,7 @@ def _likelihoods(values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_]
     for label in (HAIR, BACKDROP, CLOTHES):
         weights = belief[..., label].reshape(-1)
         chosen = thinned(np.flatnonzero(weights > 0.2))
-        fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components + 1))
+        fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components))
     # What a class does not know it is a little open to: a broad Gaussian of the whole window bounds every ratio.
     broad = fit_mixture(thinned(flat), components=1, floor=0.1)
     if broad is None:

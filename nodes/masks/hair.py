@@ -65,7 +65,7 @@ def hair(
     shape = masks.normal.shape
     top = (normal > 0.5) & (layout.outline > 0.05) & (layout.high > EYE_LINE + 0.15)
     skin = skin_mixture(values, (conservative > 0.5) & ~layout.features, components)
-    beside = fit_mixture(thinned(values[(aggressive < 0.5) & (layout.high > CHIN)]), components=components + 2)
+    beside = fit_mixture(thinned(values[(aggressive < 0.5) & (layout.high > CHIN)]), components=components)
     rivals = [m for m in (skin, beside) if m is not None]
     mixture = detector(values[top], skin, rivals, components, margin, least, rounds)
     if mixture is None:

@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 Samples = NDArray[np.floating[Any]]
 
 MULTIPLICATIONS = 1 << 17
-"""In one matrix product. Above twice this OpenBLAS starts threads; beside the engine's own they wait for each other, and
-with all cores busy that was measured to take fifty times as long."""
+"""In one matrix product. Above twice this OpenBLAS starts threads; beside the engine's own they wait for each other,
+and with all cores busy that was measured to take fifty times as long."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def fit_mixture(
     rounds: int = 6,
     floor: float = 0.02,
 ) -> Mixture | None:
-    """The mixture of at most `components` Gaussians that fits best, by expectation maximization.
+    """A mixture of Gaussians by expectation maximization: the largest power of two within `components`, or fewer.
 
     Args:
         samples: (n, D); a few thousand are enough. weights: (n,), at least 0; None: all 1.
@@ -73,44 +73,44 @@ def fit_mixture(
     Returns:
         None where there is no sample of positive weight. A single sample gives one Gaussian of the floor's width.
     """
-    samples = np.asarray(samples, np.float64)
-    weights = np.ones(len(samples)) if weights is None else np.asarray(weights, np.float64)
-    used = (weights > 1e-6) & np.isfinite(samples).all(axis=1)
-    samples, weights = samples[used], weights[used]
-    if not len(samples):
+    points: Array = np.asarray(samples, np.float64)
+    mass: Array = np.ones(len(points)) if weights is None else np.asarray(weights, np.float64)
+    used = (mass > 1e-6) & np.isfinite(points).all(axis=1)
+    points, mass = points[used], mass[used]
+    if not len(points):
         return None
-    shares = _split(samples, weights, max(1, min(components, len(samples) // (2 * samples.shape[1]))), floor)
-    mixture = _maximize(samples, weights, shares, floor)
+    shares = _split(points, mass, max(1, min(components, len(points) // (2 * points.shape[1]))), floor)
+    mixture = _maximize(points, mass, shares, floor)
     for _ in range(rounds if shares.shape[1] > 1 else 0):
-        joint = mixture.joint(samples)
-        mixture = _maximize(samples, weights, np.exp(joint - _log_sum_exp(joint)[:, None]), floor)
+        joint = mixture.joint(points)
+        mixture = _maximize(points, mass, np.exp(joint - _log_sum_exp(joint)[:, None]), floor)
     return mixture
 
 
 def _split(samples: Array, weights: Array, components: int, floor: float) -> Array:
-    """A first assignment (n, K) of 0 and 1: the widest group is cut at its mean, across its widest direction, again
-    and again. Nothing random."""
+    """A first assignment (n, K) of 0 and 1: every group is cut at its mean, across its widest direction, again and
+    again. Nothing is random, and no choice between groups can flip with a little noise."""
     group = np.zeros(len(samples), np.intp)
-    for new in range(1, components):
-        spreads = [_principal(samples[group == k], weights[group == k]) for k in range(new)]
-        widest = int(np.argmax([variance * mass for variance, mass, _ in spreads]))
-        variance, _, direction = spreads[widest]
-        if variance <= floor**2:
-            break
-        member = np.flatnonzero(group == widest)
-        along = samples[member] @ direction
-        group[member[along > np.average(along, weights=weights[member])]] = new
-    return np.eye(int(group.max()) + 1)[group]
+    count = 1
+    while 2 * count <= components:
+        for k in range(count):
+            member = np.flatnonzero(group == k)
+            variance, direction = _principal(samples[member], weights[member])
+            if variance > floor**2:
+                along = samples[member] @ direction
+                group[member[along > np.average(along, weights=weights[member])]] = count + k
+        count *= 2
+    return np.eye(count)[group][:, np.unique(group)]
 
 
-def _principal(samples: Array, weights: Array) -> tuple[float, float, Array]:
-    """Greatest variance, total weight, and the direction of that variance."""
+def _principal(samples: Array, weights: Array) -> tuple[float, Array]:
+    """Greatest variance, and its direction."""
     total = float(weights.sum())
     if len(samples) < 2 or total <= 0:
-        return 0.0, total, np.zeros(samples.shape[1])
+        return 0.0, np.zeros(samples.shape[1])
     centred = samples - np.average(samples, axis=0, weights=weights)
     values, vectors = np.linalg.eigh((centred * weights[:, None]).T @ centred / total)
-    return float(values[-1]), total, vectors[:, -1]
+    return float(values[-1]), vectors[:, -1]
 
 
 def _maximize(samples: Array, weights: Array, shares: Array, floor: float) -> Mixture:
@@ -129,5 +129,4 @@ def _log_sum_exp(joint: NDArray[np.float32]) -> NDArray[np.float32]:
     top = joint[:, 0]
     for k in range(1, joint.shape[1]):
         top = np.maximum(top, joint[:, k])  # several times faster than `max` over so short an axis
-    rest = np.exp(joint - top[:, None])
-    return np.asarray(top + np.log(rest @ np.ones(joint.shape[1], np.float32)), np.float32)
+    return np.asarray(top + np.log(np.exp(joint - top[:, None]).sum(axis=1)), np.float32)

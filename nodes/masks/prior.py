@@ -70,13 +70,14 @@ def log_prior(layout: Layout) -> FloatArray:
     face = 2.0 - fall * np.clip(np.minimum(skin, ear), 0, 1) - 3.0 * above_eyes * (layout.outline > 0)
     face = np.where(scalp < 0, np.maximum(face, -1.0), face)
 
-    sideways = np.where(below_chin > 0, np.maximum(side - 0.9, 0), 1.2 * np.maximum(layout.head, 0))
-    hair = 1.5 - 2.2 * sideways - 0.8 * below_chin
+    # Long hair falls beside the face and onto the shoulders; above, it stays near the skull.
+    beside = np.where(below_chin > 0, np.maximum(side - 1.1, 0), np.maximum(layout.head, 0))
+    hair = 1.5 - np.where(high > EYE_LINE, 2.6, 1.5) * beside - 0.5 * below_chin
     inner = np.maximum(-layout.outline, 0)
     hair -= np.where(high > EYE_LINE + 0.2, 4.0, 12.0) * inner
     hair -= 5.0 * np.clip(1.2 * (0.75 - side), 0, 1) * ((layout.neck < 0) & (layout.outline > 0))
 
-    backdrop = np.clip(0.5 + 3.0 * layout.head, -4, 2.0) - 1.5 * np.clip(below_chin * 2 - side, 0, 1.5)
+    backdrop = np.clip(0.5 + 3.0 * layout.head, -4, 1.5) - 1.5 * np.clip(below_chin * 2 - side, 0, 1.5)
     clothes = np.clip(-3 + 5.0 * (below_chin - 0.35 + 0.15 * np.minimum(side, 1)), -8, 2.0)
     clothes -= np.where(layout.neck < 0, 1.0, 0.0) * np.clip(1.2 - below_chin * 1.5, 0, 1)
     scores = np.stack([face, hair, backdrop, clothes], axis=2).astype(np.float32)
