@@ -89,7 +89,16 @@ def fit(
         )
     light = Lighting(coefficients.astype(np.float32))
     residual = _residual(shading, normals, used, light)
-    return LightingFit(light, residual, condition, dominant_direction(light))
+    return LightingFit(light, residual, condition, dominant_direction(_first_order(coefficients, gram)))
+
+
+def _first_order(coefficients: NDArray[np.float64], gram: NDArray[np.float64]) -> Lighting:
+    """The first-order light nearest to a fit over its own pixels: half a sphere of normals cannot tell the first order
+    of a higher fit from its second, only their sum."""
+    if len(coefficients) <= 4:
+        return Lighting(coefficients.astype(np.float32))
+    own = gram[:4, :4] + 1e-4 * gram[0, 0] * np.eye(4)
+    return Lighting(np.linalg.solve(own, gram[:4] @ coefficients).astype(np.float32))
 
 
 def dominant_direction(light: Lighting) -> FloatArray:
