@@ -22,7 +22,7 @@ _POINTS = 468
 _NECK = (-0.35, -2.2)
 """Heights between which the neck stands, in the mean face's frame; far down it is the collar's, at no harm."""
 
-_INWARD = 0.06
+_INWARD = 0.12
 """How far the solids stay behind the face, inter-ocular distances, so that they do not poke through it."""
 
 Points = NDArray[np.float64]

@@ -55,7 +55,7 @@ def shade(
         mesh: tells the size of the face; without it every pixel is shaded.
         surface: where the pixels lie, for lights that stand near; without it all lie at the face's middle.
         shadows: what of each light arrives; without them everything does.
-        detail: points shaded per inter-ocular distance. The change of light is as smooth as the mesh's normals, so that it
+        detail: points shaded per inter-ocular distance. The change of light is as smooth as the mesh's normals, so it
             is found on a grid and enlarged; the estimated shading, to which it is added, keeps every pixel.
         floor: least mean irradiance, in the photo's unit, that `keep_mean` scales up; a darker scene stays darker.
 

@@ -7,7 +7,7 @@ the penumbra widens with the distance between the edge and what it falls on, as 
 
 A point is compared from a little above the surface, along its normal and towards the light. Too little and facets
 shade themselves (acne); too much and the light leaks under a nose. The lift is in face units, so neither depends on
-the picture's size.
+the picture's size; a map too coarse for it raises it and shows less shadow rather than a wrong one.
 """
 
 from __future__ import annotations
@@ -19,6 +19,10 @@ from graphface.nodes.types import FloatArray
 
 _NEAR = 0.05
 """Nothing nearer to the light than this casts a shadow, inter-ocular distances."""
+
+_TEXELS = 1.5
+"""Least lift in texels. A texel off across the light is its width times the tangent of the angle of incidence off in
+depth; lifting a point by d along its normal gains d over the cosine, which is more at every angle (up to the diagonal)."""
 
 _WIDEST = np.radians(150.0)
 """Field of view of a map whose light stands in or at the face."""
@@ -45,12 +49,13 @@ def lit_share(
     """
     received = np.zeros(len(points), np.float32)
     possible = np.full(len(points), np.float32(1e-6))
-    lifted = points + normals * np.float32(lift)
     for place in places:
         towards = place - points
         distance = np.sqrt(np.einsum("nc,nc->n", towards, towards))
         cosine = np.maximum(np.einsum("nc,nc->n", towards, normals) / np.maximum(distance, np.float32(1e-4)), 0)
-        received += cosine * _ShadowMap(place, vertices, triangles, resolution, lift).sees(lifted)
+        map_ = _ShadowMap(place, vertices, triangles, resolution)
+        above = max(lift, _TEXELS * map_.texel)
+        received += cosine * map_.sees(points + normals * np.float32(above), np.float32(above / 2))
         possible += cosine
     return np.asarray((received + np.float32(1e-6)) / possible, np.float32)
 
@@ -69,9 +74,7 @@ def disc(towards: FloatArray, radius: float, count: int) -> FloatArray:
 class _ShadowMap:
     """The depth that a light sees in each direction: a camera at the light's place, its view just around the mesh."""
 
-    def __init__(
-        self, place: FloatArray, vertices: FloatArray, triangles: NDArray[np.int32], resolution: int, lift: float
-    ) -> None:
+    def __init__(self, place: FloatArray, vertices: FloatArray, triangles: NDArray[np.int32], resolution: int) -> None:
         import cv2
 
         middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
@@ -82,7 +85,7 @@ class _ShadowMap:
         away = float(np.linalg.norm(middle - place))
         near, far = max(away - 1.1 * reach, _NEAR), away + 1.1 * reach + 2 * _NEAR
         self._slope = _opening(seen, near)
-        self._bias = np.float32(lift / 2)
+        self.texel = 2 * self._slope * max(away, near) / resolution
         self._resolution = resolution
         self._depth = np.full((resolution, resolution), far, np.float32)
         settings = cv2.TriangleRasterizeSettings()
@@ -91,7 +94,7 @@ class _ShadowMap:
         pose = np.eye(4, dtype=np.float32)
         cv2.triangleRasterizeDepth(seen, triangles, self._depth, pose, view_angle, near, far, settings)
 
-    def sees(self, points: FloatArray) -> FloatArray:
+    def sees(self, points: FloatArray, bias: np.float32) -> FloatArray:
         """Percentage-closer filtering over the four texels around each point; what the map does not cover is lit."""
         seen = self._from_light(points)
         depth = -seen[:, 2]
@@ -104,7 +107,7 @@ class _ShadowMap:
         padded = np.pad(self._depth, 2, constant_values=np.float32(np.inf))
         first = (top.astype(np.intp) + 2) * padded.shape[1] + left.astype(np.intp) + 2
         flat = padded.reshape(-1)
-        limit = depth - self._bias
+        limit = depth - bias
 
         def passes(step: int) -> FloatArray:
             return (flat.take(first + step) >= limit).astype(np.float32)

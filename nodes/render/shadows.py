@@ -28,7 +28,7 @@ def shadow_maps(
     surface: Surface,
     scene: Scene,
     *,
-    resolution: Annotated[int, Field(ge=1, le=4096)] = 192,
+    resolution: Annotated[int, Field(ge=1, le=4096)] = 320,
     samples: Annotated[int, Field(ge=1, le=256)] = 12,
     detail: Annotated[int, Field(ge=4, le=1024)] = 64,
     lift: Annotated[float, Field(ge=0, le=0.5)] = 0.02,

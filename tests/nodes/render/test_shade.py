@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphface.nodes.colour import decode_srgb
-from graphface.nodes.render.scene import DirectionalLight, HarmonicLight, Scene
 from graphface.nodes.render.irradiance import irradiance
+from graphface.nodes.render.scene import DirectionalLight, HarmonicLight, Scene
 from graphface.nodes.render.shade import shade
 from graphface.nodes.types import Image
 

@@ -1,0 +1,122 @@
+"""The head behind the face, light taken from a photo, and highlights."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from graphface.nodes import sh
+from graphface.nodes.morphable.facemesh import facemesh
+from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.render.head import head
+from graphface.nodes.render.light_of import scene_of
+from graphface.nodes.render.scene import Scene
+from graphface.nodes.render.specular import specular
+from graphface.nodes.render.surface import rasterize
+from graphface.nodes.sh import basis
+from graphface.nodes.types import Image, Landmarks, Lighting
+
+PHOTO = Image(np.full((200, 160, 3), 0.5, np.float32))
+
+
+def face_mesh(yaw=0.0, unit=50.0):
+    turn = np.array([[np.cos(yaw), 0, np.sin(yaw)], [0, 1, 0], [-np.sin(yaw), 0, np.cos(yaw)]])
+    points = facemesh_topology().mean @ turn.T * (unit, -unit, unit) + (80, 80, 0)
+    return facemesh(Landmarks(points.astype(np.float32), "facemesh468"))
+
+
+class TestHead:
+    def test_the_face_stays_in_front(self):
+        """Where the face was seen, the same face is seen: no solid pokes through it."""
+        before, after = (rasterize(mesh, PHOTO) for mesh in (face_mesh(), head(face_mesh())))
+        seen = before.coverage > 0
+        same = after.triangle[seen] == before.triangle[seen]
+        assert same.mean() > 0.97
+
+    def test_covers_skull_and_neck(self):
+        """More of the picture above the forehead and below the chin is surface now."""
+        before, after = (rasterize(mesh, PHOTO).coverage for mesh in (face_mesh(), head(face_mesh())))
+        assert after[10:30].sum() > before[10:30].sum()
+        assert after[150, 80] == 1
+        assert before[150, 80] == 0
+
+    def test_solids_turn_with_the_face(self):
+        """The skull of a face that looks to the right lies to the left of it."""
+        for yaw in (-0.6, 0.6):
+            added = head(face_mesh(yaw)).vertices[468:]
+            assert np.sign(added[:, 0].mean()) == -np.sign(yaw)
+
+    @settings(max_examples=40, deadline=None)
+    @given(st.floats(-3.2, 3.2), st.sampled_from([1e-3, 1.0, 50.0, 1e4]))
+    def test_any_turn_and_size(self, yaw, unit):
+        """Normals stay unit vectors, vertices finite, triangles within the vertices."""
+        mesh = head(face_mesh(yaw, unit))
+        assert np.isfinite(mesh.vertices).all()
+        np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-4)
+        assert mesh.triangles.max() < len(mesh.vertices)
+
+    def test_a_face_of_one_point(self):
+        """No pose to be had: the mesh comes back, with a warning."""
+        from dataclasses import replace
+
+        flat = replace(face_mesh(), vertices=np.zeros((468, 3), np.float32))
+        with pytest.warns(match="no pose"):
+            assert head(flat) is flat
+
+
+class TestSceneOf:
+    def test_light_from_the_left_is_light_from_the_left(self):
+        """The scene's light is brightest where the fitted one is."""
+        light = Lighting(np.float32([2, 0, 0.6, -0.8]))
+        scene = scene_of(light, PHOTO)
+        left, right = np.float32([[-0.7, 0, 0.7]]), np.float32([[0.7, 0, 0.7]])
+        values = scene.lights[0].values
+        assert basis(left, 2) @ values > 1.5 * (basis(right, 2) @ values)
+
+    def test_even_light_stays_even(self):
+        """Ambient in, ambient out, of mean 1."""
+        values = scene_of(sh.ambient(0.3), PHOTO).lights[0].values
+        normals = np.float32([[0, 0, 1], [1, 0, 0], [0, -0.6, 0.8]])
+        np.testing.assert_allclose(basis(normals, 2) @ values, 1, atol=1e-3)
+
+    def test_coloured_light_stays_coloured(self):
+        """One light per channel."""
+        light = Lighting(np.repeat(np.float32([[2], [0], [0], [0.5]]), 3, axis=1) * np.float32([1, 0.8, 0.5]))
+        assert scene_of(light, PHOTO).colored
+
+    def test_darkness(self):
+        """A black reference gives even light, with a warning."""
+        with pytest.warns(match="hardly any light"):
+            assert scene_of(Lighting(np.zeros(4, np.float32)), PHOTO).ambient == 1
+
+
+class TestSpecular:
+    MESH = face_mesh()
+    SURFACE = rasterize(MESH, PHOTO)
+
+    def shine(self, scene):
+        estimated = 0.5 * self.SURFACE.coverage
+        return specular(self.SURFACE.normals, scene, estimated, self.SURFACE.coverage, PHOTO, self.MESH, self.SURFACE)
+
+    def test_lies_between_light_and_viewer(self):
+        """A light from the left makes its highlight on the left half."""
+        scene = Scene.coerce({"specular": 1, "lights": [{"type": "directional", "azimuth": -60}]})
+        sums = self.shine(scene)[..., 0].sum(axis=0)
+        assert sums[:80].sum() > 1.5 * sums[80:].sum()
+
+    def test_ambient_light_makes_none(self):
+        """Nor does spherical-harmonic light."""
+        assert not self.shine(
+            Scene.coerce({"specular": 1, "ambient": 1, "lights": [{"type": "sh", "preset": "left"}]})
+        ).any()
+
+    @settings(max_examples=30, deadline=None)
+    @given(st.floats(-180, 180), st.floats(-90, 90), st.floats(0.05, 1), st.sampled_from([0.0, 1.0, 1e6]))
+    def test_any_light(self, azimuth, elevation, roughness, intensity):
+        """Grazing, behind, a mirror, enormous: finite and not negative."""
+        light = {"type": "directional", "azimuth": azimuth, "elevation": elevation, "intensity": intensity}
+        shine = self.shine(Scene.coerce({"specular": 1, "roughness": roughness, "lights": [light]}))
+        assert np.isfinite(shine).all()
+        assert shine.min() >= 0

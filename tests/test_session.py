@@ -1,0 +1,98 @@
+"""Sessions: an edit costs what it reaches, inputs are looked at once, previews are small."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphface import load
+from graphface.errors import InputError
+from graphface.session import Session
+
+
+@pytest.fixture
+def relight():
+    return load(
+        {
+            "graphface": 1,
+            "name": "two",
+            "inputs": {"photo": "Image", "other": "Image"},
+            "nodes": {
+                "a": {"use": "image.encode", "in": {"photo": "photo"}, "with": {"encoding": "linear"}},
+                "b": {"use": "image.encode", "in": {"photo": "other"}, "with": {"encoding": "linear"}},
+            },
+            "outputs": {"a": "a", "b": "b"},
+        }
+    )
+
+
+def picture(value, side=8):
+    return np.full((side, side, 3), value, np.float32)
+
+
+def ran(result):
+    return {record.name for record in result.records if record.state == "ran"}
+
+
+def halved(image):
+    return image.with_pixels(np.ascontiguousarray(image.pixels[::2, ::2]))
+
+
+class TestSession:
+    def test_an_edit_reaches_what_depends_on_it(self, relight):
+        """The branch of the other input is not run again."""
+        from graphface.nodes.image import image_from_array
+
+        photo, other, third = (image_from_array(picture(v)) for v in (0.1, 0.2, 0.3))
+        session = Session(relight, photo=photo, other=other)
+        assert {"a", "b"} <= ran(session.render())
+        session.edit(other=third)
+        again = ran(session.render())
+        assert "b" in again
+        assert "a" not in again
+
+    def test_unedited_inputs_are_not_bound_again(self, relight, tmp_path):
+        """A file that was deleted meanwhile is not missed."""
+        from graphface.nodes.image import write_picture
+
+        path = tmp_path / "photo.png"
+        write_picture(np.zeros((4, 4, 3), np.uint8), path)
+        session = Session(relight, photo=path, other=picture(0.2))
+        session.render()
+        path.unlink()
+        session.edit(other=picture(0.3))
+        assert session.render()["a"].pixels.shape == (4, 4, 3)
+
+    def test_the_preview_is_reduced(self, relight):
+        """Half the side where asked, the full size elsewhere."""
+        session = Session(relight, shrink={"photo": halved}, photo=picture(0.1), other=picture(0.2))
+        small = session.preview()
+        assert small["a"].pixels.shape == (4, 4, 3)
+        assert small["b"].pixels.shape == (8, 8, 3)
+        assert session.render()["a"].pixels.shape == (8, 8, 3)
+
+    def test_the_preview_follows_edits(self, relight):
+        """It shows the input as it is now."""
+        session = Session(relight, shrink={"photo": halved}, photo=picture(0.1), other=picture(0.2))
+        before = session.preview()["a"].pixels[0, 0, 0]
+        session.edit(photo=picture(0.9))
+        assert session.preview()["a"].pixels[0, 0, 0] > before
+
+    def test_a_wrong_edit_changes_nothing(self, relight):
+        """The session stays as it was."""
+        session = Session(relight, photo=picture(0.1), other=picture(0.2))
+        with pytest.raises(InputError):
+            session.edit(phtoo=picture(0.5))
+        assert session.edits == 1
+        assert session.render()["a"].pixels.shape == (8, 8, 3)
+
+    def test_the_plan_is_that_of_the_edit(self, relight):
+        """Memoized nodes and nodes to run, before anything runs."""
+        from graphface.nodes.image import image_from_array
+
+        photo, other, third = (image_from_array(picture(v)) for v in (0.1, 0.2, 0.3))
+        session = Session(relight, photo=photo, other=other)
+        session.render()
+        session.edit(other=third)
+        fates = {node.name: node.fate for node in session.plan()}
+        assert fates == {"a": "memory", "b": "run"}
