@@ -59,6 +59,8 @@ def hair(
     Returns:
         Maps of the photo's size.
     """
+    import cv2
+
     window, values = features.window, features.values
     layout = layout_of(landmarks, window)
     conservative, normal, aggressive = (window.shrunk(m) for m in (masks.conservative, masks.normal, masks.aggressive))
@@ -73,7 +75,10 @@ def hair(
         return Hair(nothing, nothing)
     flat = values.reshape(-1, values.shape[2])
     lead = mixture.log_likelihood(flat) - rival_likelihood(flat, rivals)
-    response = window.enlarged(sigmoid(lead - margin).reshape(values.shape[:2]), shape, beyond=0)
+    found = sigmoid(lead - margin).reshape(values.shape[:2])
+    # A line along the silhouette mixes the colours of both sides, and so resembles neither; hair is wider than that.
+    found = np.asarray(cv2.morphologyEx(found, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)), np.float32)
+    response = window.enlarged(found, shape, beyond=0)
     return Hair(response, response * masks.normal)
 
 

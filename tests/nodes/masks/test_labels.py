@@ -1,0 +1,104 @@
+"""From seeds to labels: hair detector and classifiers, on a head whose labels are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from portraits import BACKDROP, HAIR, SKIN, portrait, surface_of
+
+from graphface.nodes.masks.classify import classify
+from graphface.nodes.masks.features import pixel_features
+from graphface.nodes.masks.geometric import geometric
+from graphface.nodes.masks.hair import hair
+from graphface.testing import check_node
+
+
+def stages(photo, landmarks, **settings):
+    masks = geometric(photo, landmarks, surface_of(landmarks, photo.pixels.shape[:2]))
+    seen = pixel_features(photo, landmarks, **settings)
+    return seen, masks, hair(seen, masks, landmarks)
+
+
+def overlap(mask, truth):
+    return (mask & truth).sum() / (mask | truth).sum()
+
+
+def likeliest(labels):
+    return np.stack([labels.face, labels.hair, labels.background]).argmax(axis=0)
+
+
+class TestHair:
+    @pytest.mark.parametrize("color", [HAIR, (0.85, 0.75, 0.45), (0.9, 0.9, 0.92), (0.5, 0.2, 0.1)])
+    def test_found_by_colour(self, color):
+        """Dark, fair, white and red hair on top of the head is found."""
+        photo, landmarks, labels = portrait(hair=color)
+        found = stages(photo, landmarks)[2]
+        assert overlap(found.mask > 0.5, (labels == 1)) > 0.8
+
+    def test_response_reaches_beyond_the_mask(self):
+        """The mask is the response within the normal mask."""
+        photo, landmarks, _ = portrait()
+        _, masks, found = stages(photo, landmarks)
+        np.testing.assert_array_equal(found.mask, found.response * masks.normal)
+
+    @pytest.mark.parametrize("color", [SKIN, tuple(min(1.0, c + 0.12) for c in SKIN)])
+    def test_bald(self, color):
+        """A scalp of the face's colour, or lighter by a shine, is no hair."""
+        photo, landmarks, _ = portrait(hair=color)
+        assert (stages(photo, landmarks)[2].mask > 0.5).mean() < 0.002
+
+    def test_nothing_but_backdrop_on_top(self):
+        """Where the backdrop is seen at the top of the mask there is no hair."""
+        photo, landmarks, _ = portrait(hair=BACKDROP)
+        assert stages(photo, landmarks)[2].mask.mean() < 0.01
+
+    def test_node(self):
+        """It keeps an operator's promises."""
+        photo, landmarks, _ = portrait(120)
+        seen, masks, _ = stages(photo, landmarks)
+        check_node(hair, seen, masks, landmarks)
+
+
+class TestClassify:
+    @pytest.mark.parametrize("smoothing", ["none", "guided", "mean_field"])
+    def test_all_three_labels(self, smoothing):
+        """Face with neck and ears, hair and background overlap the truth, with every smoothing."""
+        photo, landmarks, labels = portrait()
+        found = likeliest(classify(*stages(photo, landmarks), landmarks, photo, smoothing=smoothing))
+        assert [overlap(found == k, labels == k) > least for k, least in enumerate((0.9, 0.85, 0.93))] == [True] * 3
+
+    @pytest.mark.parametrize("settings", [{"space": "rgb"}, {"space": "hsv"}, {"kind": "color"}, {"resolution": 20}])
+    def test_feature_swaps(self, settings):
+        """Every colour space, feature set and resolution does the job on an easy head."""
+        photo, landmarks, labels = portrait()
+        found = likeliest(classify(*stages(photo, landmarks, **settings), landmarks, photo))
+        assert overlap(found == 1, labels == 1) > 0.75
+
+    def test_partition(self):
+        """Labels lie in [0, 1] and sum to 1."""
+        photo, landmarks, _ = portrait()
+        labels = classify(*stages(photo, landmarks), landmarks, photo)
+        total = labels.face + labels.hair + labels.background
+        np.testing.assert_allclose(total, 1, atol=1e-5)
+        assert min(m.min() for m in (labels.face, labels.hair, labels.background)) >= 0
+
+    def test_conservative_mask_is_face(self):
+        """What is surely face is never called anything else."""
+        photo, landmarks, _ = portrait()
+        seen, masks, found = stages(photo, landmarks)
+        labels = classify(seen, masks, found, landmarks, photo)
+        assert labels.face[masks.conservative > 0].min() > 0.5
+
+    def test_dark_suit_is_no_hair(self):
+        """Clothes of the hair's colour below the neck are background."""
+        photo, landmarks, labels = portrait()
+        pixels = photo.pixels.copy()
+        pixels[int(0.85 * len(pixels)) :] = HAIR
+        found = likeliest(classify(*stages(photo.with_pixels(pixels), landmarks), landmarks, photo))
+        assert (found[int(0.88 * len(pixels)) :] == 1).mean() < 0.05
+        assert overlap(found == 1, labels == 1) > 0.8
+
+    def test_node(self):
+        """It keeps an operator's promises."""
+        photo, landmarks, _ = portrait(120)
+        check_node(classify, *stages(photo, landmarks), landmarks, photo)
