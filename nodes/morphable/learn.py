@@ -119,7 +119,7 @@ def _components(
 ) -> _Components:
     """Mean (V, 3) and directions (K, V, 3), identity first, scaled to one standard deviation."""
     shape = mean.shape
-    expressions, deviations = _principal(within.reshape(len(within), -1), expression)
+    expressions, deviations = _principal(within.reshape(len(within), mean.size), expression)
     both = np.concatenate([portraits, _mirrored(portraits, topology)])
     apart = (both - mean).reshape(len(both), -1)
     neutral = apart - apart @ expressions.T @ expressions
