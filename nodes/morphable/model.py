@@ -81,7 +81,7 @@ class MorphableModel:
 
     def vertices(self, coefficients: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
         """The face (V, 3) of (identity, expression) coefficients, as many as there are (the rest are zero)."""
-        directions = self.directions[: len(coefficients)].reshape(len(coefficients), -1)
+        directions = self.directions[: len(coefficients)].reshape(len(coefficients), self.mean.size)
         moved = np.asarray(coefficients, np.float32) @ directions
         face: NDArray[np.float64] = self.mean.astype(np.float64) + moved.reshape(-1, 3)
         return face
