@@ -28,13 +28,14 @@ pack = Pack(
         "regions": "graphface.nodes.regions",
         "intrinsic": " ".join(f"graphface.nodes.intrinsic.{method}" for method in _INTRINSIC),
         "metrics": "graphface.nodes.metrics.operators",
+        "representation": "graphface.nodes.representation",
         "sh": " ".join(f"graphface.nodes.sh.{m}" for m in ("fitting", "rendering", "rotation", "environment", "ball")),
         "detail": " ".join(f"{_DETAIL}.{method}" for method in ("additive", "multiplicative", "none", "split")),
         "detail.edit": " ".join(f"{_DETAIL}.{edit}" for edit in ("bands", "wrinkles", "shine")),
         "render": "graphface.nodes.render.shade graphface.nodes.render.shadows graphface.nodes.render.spread "
         "graphface.nodes.render.head graphface.nodes.render.skin graphface.nodes.render.specular "
         "graphface.nodes.render.composite graphface.nodes.render.relit",
-        "light": "graphface.nodes.render.light_of",
+        "light": "graphface.nodes.render.light_of graphface.nodes.render.panorama",
         "scatter": "graphface.nodes.scatter.none graphface.nodes.scatter.gaussian graphface.nodes.scatter.screen_space",
         "transfer": "graphface.nodes.transfer",
         "warp": "graphface.nodes.warp.mesh graphface.nodes.warp.resample",
@@ -81,6 +82,7 @@ pack = Pack(
         "Pins": "graphface.nodes.warp.correspondence:Pins",
         "Environment": "graphface.nodes.envmap:Environment",
         "Regions": "graphface.nodes.regions:Regions",
+        "Representation": "graphface.nodes.representation:Representation",
         "Scene": "graphface.nodes.render.scene:Scene",
         "Shadows": "graphface.nodes.render.visibility:Shadows",
     },
