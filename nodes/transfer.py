@@ -123,9 +123,9 @@ def recoloured(
 
     Args:
         reference, albedo: the reference's, warped to the input, and the input's.
-        floor: least albedo divided by. most: largest factor either way.
+        floor: added to both before they are divided. most: largest factor either way.
     """
-    ratio = albedo / np.maximum(reference, np.float32(floor))
+    ratio = (albedo + np.float32(floor)) / (np.maximum(reference, 0) + np.float32(floor))
     ratio = np.clip(ratio, np.float32(1 / most), np.float32(most))
     pivot = None if detail.pivot is None else detail.pivot * ratio
     return replace(detail, offset=detail.offset * ratio, pivot=pivot)

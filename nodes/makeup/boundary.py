@@ -107,7 +107,7 @@ def boundary(
     around = _averaged(change, bare, 0.4 * unit)
     change[known & ~bare] = around[known & ~bare]  # lips and brows have no place in the ring
     continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
-    factor = np.exp(cv2.resize(continued, core.shape[::-1], interpolation=cv2.INTER_LINEAR))
+    factor = np.asarray(cv2.resize(np.exp(continued), core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
     # What shines more than skin does is no skin colour: it moves with the skin, and is not multiplied.
     matte = np.minimum(photo.pixels, np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32))
     beyond = photo.pixels + _limited((matte + np.float32(_FLOOR)) * (factor - 1), photo.pixels)
@@ -117,8 +117,7 @@ def boundary(
 def _limited(change: FloatArray, pixels: FloatArray) -> FloatArray:
     """The change, bent to stay within the room that each value has left; small changes pass as they are."""
     room = np.maximum(np.where(change > 0, 1 - pixels, pixels), np.float32(1e-4))
-    share = np.square(change / room)
-    return np.asarray(change / np.sqrt(np.sqrt(1 + np.square(share))), np.float32)
+    return np.asarray(change / np.sqrt(1 + np.square(change / room)), np.float32)
 
 
 def _averaged(change: FloatArray, bare: NDArray[np.bool_], reach: float) -> FloatArray:

@@ -41,7 +41,11 @@ def albedo(
         skin = _skin(mask, features)
         own, other = (_median(values, skin) for values in (albedo, reference))
         reference = reference * np.float32(own / np.maximum(other, _LEAST_ALBEDO)) ** np.float32(1 - tone)
-    painted: Albedo = reference + opening * np.float32(1 - eyes) * (albedo - reference)
+    rows = np.flatnonzero(opening.any(axis=(1, 2)))
+    painted = reference.copy()
+    if rows.size:
+        window = slice(rows[0], rows[-1] + 1)
+        painted[window] += opening[window] * np.float32(1 - eyes) * (albedo[window] - reference[window])
     return painted
 
 

@@ -15,6 +15,9 @@ from graphface.nodes.warp.correspondence import Correspondence, Pins
 
 Hidden = Literal["mirror", "input"]
 
+_UNSEEN = 0.05
+"""What counts as not seen at all, 0..1: two photos that both do not show a point are equally good."""
+
 
 @node("warp.mesh")
 def mesh(
@@ -22,6 +25,7 @@ def mesh(
     mesh: Mesh,
     reference_surface: Surface,
     reference_mesh: Mesh,
+    mask: Mask | None = None,
     reference_mask: Mask | None = None,
     pins: Pins | None = None,
     *,
@@ -33,7 +37,8 @@ def mesh(
 
     Args:
         surface, mesh: the input's. reference_surface, reference_mesh: the reference's, of the same triangles.
-        reference_mask: what of the reference may be taken, its skin; without it all of its mesh.
+        mask, reference_mask: the input's skin, and what of the reference may be taken, its skin; without them, all. A
+            place is valid where the reference shows the point as well as the input does.
         pins: correspondences set by hand; their corrections fade out over `pin_reach` inter-ocular distances.
         hidden: what stands in for points that the reference hides: their mirror images, or nothing (the input stays).
         facing: cosine between normal and view at which the reference fully shows a surface; at half of it, not at all.
@@ -53,9 +58,9 @@ def mesh(
         places = np.zeros((*inside.shape, 2), np.float32)
         return Correspondence(places, inside, np.zeros_like(inside), size)
 
-    # Nothing needs to be seen better in the reference than it is in the input.
     own, shown = (_shown_vertices(s, m, facing) for s, m in ((surface, mesh), (reference_surface, reference_mesh)))
-    places, valid = _carried(surface, reference_mesh, own, shown, np.arange(len(own)), reference_mask, size)
+    masks = None if reference_mask is None else (mask if mask is not None else inside, reference_mask)
+    places, valid = _carried(surface, reference_mesh, own, shown, np.arange(len(own)), masks, size)
     if pins is not None and len(pins.points):
         places = places + _pinned(places, pins, pin_reach * mesh.interocular)
     mirror = mesh.mirror if mesh.mirror is not None else _mirror_vertices(len(mesh.vertices))
@@ -63,7 +68,7 @@ def mesh(
         if hidden == "mirror":
             warn("warp.mesh: this mesh has no known mirror image; what the reference hides stays the input's")
         return Correspondence(places, inside, valid, size)
-    mirrored, mirrored_valid = _carried(surface, reference_mesh, own, shown, mirror, reference_mask, size)
+    mirrored, mirrored_valid = _carried(surface, reference_mesh, own, shown, mirror, masks, size)
     mirrored_valid *= np.clip((0.5 - valid) * 2, 0, 1)
     return Correspondence(places, inside, valid, size, mirrored, mirrored_valid)
 
@@ -87,12 +92,12 @@ def _carried(
     own: NDArray[np.float64],
     shown: NDArray[np.float64],
     vertex: NDArray[Any],
-    mask: Mask | None,
+    masks: tuple[Mask, Mask] | None,
     size: tuple[int, int],
 ) -> tuple[FloatArray, Mask]:
     """Places H x W x 2 and validity H x W, where vertex k of the input's mesh is vertex[k] of the reference's."""
     positions = reference.vertices[vertex]
-    valid_at = np.minimum(shown[vertex] / np.maximum(own, 0.05), 1)
+    valid_at = np.minimum((shown[vertex] + _UNSEEN) / (own + _UNSEEN), 1)
     of_vertex = np.column_stack([positions, valid_at]).astype(np.float32)
     triangles = reference.triangles
     rows, columns = _window(surface.coverage > 0)
@@ -109,8 +114,9 @@ def _carried(
     valid[rows, columns] = carried[..., 3] * on_mesh
     height, width = size
     valid[(places < -0.5).any(axis=2) | (places[..., 0] > width - 0.5) | (places[..., 1] > height - 0.5)] = 0
-    if mask is not None:
-        valid *= _sampled(mask, places)
+    if masks is not None:
+        unseen = np.float32(_UNSEEN)
+        valid *= np.minimum((_sampled(masks[1], places) + unseen) / (masks[0] + unseen), 1)
     return places, valid
 
 
