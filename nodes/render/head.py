@@ -7,6 +7,7 @@ chin's shadow and no side of the head that turns away. An ellipsoid and a cylind
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +23,12 @@ _POINTS = 468
 _NECK = (-0.35, -2.2)
 """Heights between which the neck stands, in the mean face's frame; far down it is the collar's, at no harm."""
 
-_INWARD = 0.12
-"""How far the solids stay behind the face, inter-ocular distances, so that they do not poke through it."""
+_BEHIND = 0.2
+"""How far the skull stays behind the middle of the face, as a share of its size, so that it does not poke through."""
+
+_NEAR, _REACH = 0.12, 0.4
+"""Angles, seen from the middle of the skull, over which the skull follows the face's rim, and after which it no longer
+does."""
 
 Points = NDArray[np.float64]
 
@@ -46,11 +51,12 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
         warn("render.head: the mesh tells no pose of the face; light beyond it is continued without a head")
         return mesh
     rotation, scale, middle = pose
-    parts = [_ellipsoid(*CRANIUM), _cylinder(NECK_RADIUS, NECK_DEPTH, *_NECK)]
+    own = (mesh.vertices[:_POINTS].astype(np.float64) - middle) @ rotation / scale
+    parts = [_skull(own), _cylinder(NECK_RADIUS, NECK_DEPTH, *_NECK)]
     vertices, normals, triangles = [mesh.vertices], [mesh.normals], [mesh.triangles]
     count = len(mesh.vertices)
     for points, outward, faces in parts:
-        vertices.append((middle + scale * (points - (0, 0, _INWARD)) @ rotation.T).astype(np.float32))
+        vertices.append((middle + scale * points @ rotation.T).astype(np.float32))
         normals.append((outward @ rotation.T).astype(np.float32))
         triangles.append((faces + count).astype(np.int32))
         count += len(points)
@@ -77,6 +83,35 @@ def _pose(mesh: Mesh) -> tuple[Points, float, Points] | None:
     rotation = (u * sign) @ vt
     scale = float((sizes * sign).sum() / max(np.square(mean - from_middle).sum(), 1e-12))
     return (rotation, scale, to_middle - scale * rotation @ from_middle) if scale > 1e-6 else None
+
+
+def _skull(face: Points) -> tuple[Points, Points, NDArray[np.int64]]:
+    """The ellipsoid, drawn to the rim of this face, so that no step between the two throws a shadow.
+
+    Args:
+        face: (468, 3) in the mean face's frame.
+    """
+    center, axes = (np.asarray(v) for v in CRANIUM)
+    points, normals, triangles = _ellipsoid(CRANIUM[0], CRANIUM[1])
+    unit, seen = (points - center) / axes, (face - center) / axes
+    size = np.linalg.norm(seen, axis=1)
+    rim = _rim()
+    inside = np.linalg.norm(face[:, None] - face[None, rim], axis=2).min(axis=1)
+    goal = size - np.minimum(inside / 2, _BEHIND)
+    cosine = np.clip(unit @ (seen / np.maximum(size, 1e-6)[:, None]).T, -1, 1)
+    weight = np.exp(-np.square(np.arccos(cosine) / _NEAR) / 2)
+    rest = np.exp(-((_REACH / _NEAR) ** 2) / 2)
+    scale = 1 + weight @ (goal - 1) / (weight.sum(axis=1) + rest)
+    return center + np.clip(scale, 0.5, 1.5)[:, None] * unit * axes, normals, triangles
+
+
+@cache
+def _rim() -> NDArray[np.int64]:
+    """The points along the outline of the face mesh."""
+    triangles = facemesh_topology().triangles
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    unique, uses = np.unique(edges, axis=0, return_counts=True)
+    return np.unique(unique[uses == 1])
 
 
 def _ellipsoid(

@@ -7,10 +7,18 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.render.lights import Casting, DirectionalLight, HarmonicLight, PointLight, SpotLight
+from graphface import UsageError
+from graphface.nodes.render.lights import (
+    Casting,
+    DirectionalLight,
+    EnvironmentLight,
+    HarmonicLight,
+    PointLight,
+    SpotLight,
+)
 from graphface.nodes.render.scene import Scene
-from graphface.nodes.sh import basis
-from graphface.nodes.types import FloatArray
+from graphface.nodes.sh import basis, rotate
+from graphface.nodes.types import FloatArray, Lighting
 
 
 def irradiance(
@@ -18,6 +26,7 @@ def irradiance(
     normals: NDArray[np.float32],
     points: FloatArray | None = None,
     visible: Mapping[int, FloatArray] | None = None,
+    panorama: Lighting | None = None,
 ) -> FloatArray:
     """What unit normals (n, 3) receive: (n,), or (n, 3) where a light is coloured. Never negative.
 
@@ -25,13 +34,19 @@ def irradiance(
         points: (n, 3), inter-ocular distances from the middle of the face; near lights need them, without them
             everything counts as being at the middle.
         visible: share (n,) of a light that arrives, by its place in `scene.lights`; others arrive whole.
+        panorama: the irradiance of environment lights, before they are turned.
+
+    Raises:
+        UsageError: the scene has an environment light and there is no panorama.
     """
     channels = 3 if scene.colored else 1
     ambient = scene.ambient if scene.colored else np.mean(scene.ambient)
     total = np.zeros((len(normals), channels), np.float32) + np.asarray(ambient, np.float32)
     for index, light in enumerate(scene.lights):
         if isinstance(light, HarmonicLight):
-            received = _harmonic(light, normals)
+            received = _harmonic(light.values, normals)
+        elif isinstance(light, EnvironmentLight):
+            received = _surroundings(light, normals, panorama)
         else:
             received = arriving(light, normals, points)
             if visible is not None and index in visible:
@@ -58,9 +73,17 @@ def towards_light(light: Casting, normals: NDArray[np.float32], points: FloatArr
     return _to_light(light, normals, points)[1]
 
 
-def _harmonic(light: HarmonicLight, normals: NDArray[np.float32]) -> FloatArray:
-    order = round(float(np.sqrt(len(light.values)))) - 1
-    received: FloatArray = np.maximum(basis(normals, order) @ light.values, 0).astype(np.float32)
+def _surroundings(light: EnvironmentLight, normals: NDArray[np.float32], panorama: Lighting | None) -> FloatArray:
+    if not light.radiance.any():
+        return np.zeros((len(normals), 1), np.float32)
+    if panorama is None:
+        raise UsageError("the scene has an environment light; give the graph's input `environment` a panorama")
+    return _harmonic(rotate(panorama, azimuth=light.azimuth).coefficients, normals)
+
+
+def _harmonic(values: FloatArray, normals: NDArray[np.float32]) -> FloatArray:
+    order = round(float(np.sqrt(len(values)))) - 1
+    received: FloatArray = np.maximum(basis(normals, order) @ values, 0).astype(np.float32)
     return received if received.ndim == 2 else received[:, None]
 
 

@@ -199,5 +199,21 @@ class SpotLight(PointLight):
         return (vector / length if length > 1e-6 else np.array([0.0, 0.0, -1.0])).astype(np.float32)
 
 
-Light = Annotated[DirectionalLight | PointLight | SpotLight | HarmonicLight, Field(discriminator="type")]
+class EnvironmentLight(_Light):
+    """The light of the panorama that the graph is given as its input `environment`, turned by `azimuth` to the right.
+
+    It is projected to second-order spherical harmonics, so it is soft and casts no shadow.
+    """
+
+    type: Literal["environment"] = "environment"
+    azimuth: Azimuth = 0.0
+
+    @property
+    def colored(self) -> bool:
+        return True
+
+
+Light = Annotated[
+    DirectionalLight | PointLight | SpotLight | HarmonicLight | EnvironmentLight, Field(discriminator="type")
+]
 Casting = DirectionalLight | PointLight

@@ -23,6 +23,7 @@ from graphface.nodes.render.lights import (
     Casting,
     Color,
     DirectionalLight,
+    EnvironmentLight,
     HarmonicLight,
     Light,
     Nonnegative,
@@ -32,7 +33,7 @@ from graphface.nodes.render.lights import (
 )
 from graphface.nodes.render.scene_file import first_problem, read_scene
 
-__all__ = ["DirectionalLight", "HarmonicLight", "PointLight", "Scene", "SpotLight"]
+__all__ = ["DirectionalLight", "EnvironmentLight", "HarmonicLight", "PointLight", "Scene", "SpotLight"]
 
 _BEHIND = -0.9
 """Cosine to the viewer's direction below which a light only grazes what the camera sees: its shadow would not show."""
@@ -88,12 +89,17 @@ class Scene(Part):
         return any(isinstance(light, PointLight) for light in self.lights)
 
     @property
+    def surrounded(self) -> bool:
+        """Whether a panorama lights the face."""
+        return any(isinstance(light, EnvironmentLight) and light.radiance.any() for light in self.lights)
+
+    @property
     def casting(self) -> dict[int, Casting]:
         """The lights that cast a shadow that the camera could see, by their place in `lights`."""
         return {
             index: light
             for index, light in enumerate(self.lights)
-            if not isinstance(light, HarmonicLight)
+            if not isinstance(light, HarmonicLight | EnvironmentLight)
             and light.shadow != "none"
             and light.radiance.any()
             and _toward_viewer(light) > _BEHIND

@@ -44,7 +44,7 @@ def read_scene(path: Path, model: type[M]) -> M:
 def first_problem(error: ValidationError) -> tuple[tuple[int | str, ...], str]:
     """Where the first problem is, by keys and positions as written in the file, and what it is."""
     problem = error.errors()[0]
-    alternatives = {"directional", "point", "spot", "sh", "constrained-float", "function-after"}
+    alternatives = {"directional", "point", "spot", "sh", "environment", "constrained-float", "function-after"}
     place = tuple(key for key in problem["loc"] if key not in alternatives and not str(key).startswith("tuple["))
     message = problem["msg"].removeprefix("Value error, ")
     return place, "unknown key" if problem["type"] == "extra_forbidden" else message

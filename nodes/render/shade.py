@@ -15,12 +15,13 @@ from graphface.nodes.render.places import grid_middles, lifted_pixels
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.sh import has_surface
-from graphface.nodes.types import FloatArray, Image, Mask, Mesh, Normals, Shading, Surface
+from graphface.nodes.types import FloatArray, Image, Lighting, Mask, Mesh, Normals, Shading, Surface
 
 
 def _wanted(scene: Scene) -> Needs:
     return {
         "shadows": bool(scene.casting) or "no light of the scene casts a shadow that the camera could see",
+        "panorama": scene.surrounded or "the scene has no environment light",
         "surface": scene.local or "no light of the scene is near, so places on the face do not matter",
     }
 
@@ -35,6 +36,7 @@ def shade(
     mesh: Mesh | None = None,
     surface: Lazy[Surface] = None,
     shadows: Lazy[Shadows] = None,
+    panorama: Lazy[Lighting] = None,
     *,
     detail: Annotated[float, Field(ge=8, le=4096)] = 96,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
@@ -54,6 +56,7 @@ def shade(
         photo: gives the encoding.
         mesh: tells the size of the face; without it every pixel is shaded.
         surface: where the pixels lie, for lights that stand near; without it all lie at the face's middle.
+        panorama: irradiance of the surroundings, for environment lights.
         shadows: what of each light arrives; without them everything does.
         detail: points shaded per inter-ocular distance. The change of light is as smooth as the mesh's normals, so it
             is found on a grid and enlarged; the estimated shading, to which it is added, keeps every pixel.
@@ -68,7 +71,7 @@ def shade(
     old = np.maximum(decode_srgb(before) if encoded else before, 0)
     points = None if mesh is None or surface is None or not scene.local else _points(grid, covered, surface, mesh)
     visible = {} if shadows is None else {n: shadows.of(n, covered.shape)[covered] for n in shadows.lights}
-    new = irradiance(scene, normals[grid][covered], points, visible)
+    new = irradiance(scene, normals[grid][covered], points, visible, panorama)
     if new.ndim < old.ndim:
         new = new[:, None]
     elif old.ndim < new.ndim:

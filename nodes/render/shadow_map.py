@@ -22,7 +22,7 @@ _NEAR = 0.05
 
 _TEXELS = 1.5
 """Least lift in texels. A texel off across the light is its width times the tangent of the angle of incidence off in
-depth; lifting a point by d along its normal gains d over the cosine, which is more at every angle (up to the diagonal)."""
+depth; lifting a point by d along its normal gains d over the cosine, which is more at every angle."""
 
 _WIDEST = np.radians(150.0)
 """Field of view of a map whose light stands in or at the face."""

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import node
+from graphface import Lazy, Needs, node
 from graphface.nodes.colour import decode_srgb
 from graphface.nodes.render.irradiance import arriving, irradiance, towards_light
-from graphface.nodes.render.lights import HarmonicLight
+from graphface.nodes.render.lights import EnvironmentLight, HarmonicLight
 from graphface.nodes.render.places import surface_points
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shade import light_gain
 from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.sh import has_surface
-from graphface.nodes.types import FloatArray, Image, Mask, Mesh, Normals, Shading, Surface
+from graphface.nodes.types import FloatArray, Image, Lighting, Mask, Mesh, Normals, Shading, Surface
 
 NORMAL_REFLECTANCE = 0.028
 """Fresnel reflectance of skin head-on (index of refraction 1.4)."""
@@ -23,7 +23,14 @@ _SKIN_ALBEDO = 0.4
 """Diffuse reflectance that the photo's brightness is taken to stand for, where highlights are compared with it."""
 
 
-@node("render.specular")
+def _wanted(scene: Scene) -> Needs:
+    return {
+        "shadows": bool(scene.casting) or "no light of the scene casts a shadow that the camera could see",
+        "panorama": scene.surrounded or "the scene has no environment light",
+    }
+
+
+@node("render.specular", needs=_wanted)
 def specular(
     normals: Normals,
     scene: Scene,
@@ -32,7 +39,8 @@ def specular(
     photo: Image,
     mesh: Mesh,
     surface: Surface,
-    shadows: Shadows | None = None,
+    shadows: Lazy[Shadows] = None,
+    panorama: Lazy[Lighting] = None,
 ) -> Shading:
     """What directional, point and spot lights reflect off the skin towards the camera: microfacets after GGX.
 
@@ -49,10 +57,10 @@ def specular(
     old = estimated[covered].astype(np.float32, copy=False)
     old = np.maximum(decode_srgb(old) if photo.encoding == "srgb" else old, 0)
     share = scene.mix if scene.mode == "mix" else 1.0
-    gain = share * light_gain(scene, irradiance(scene, facing, points, visible), old, mask[covered])
+    gain = share * light_gain(scene, irradiance(scene, facing, points, visible, panorama), old, mask[covered])
     total = np.zeros((len(facing), 3), np.float32)
     for index, light in enumerate(scene.lights):
-        if isinstance(light, HarmonicLight):
+        if isinstance(light, HarmonicLight | EnvironmentLight):
             continue
         lobe = _lobe(facing, towards_light(light, facing, points), scene.roughness)
         arrives = arriving(light, facing, points) * visible.get(index, np.float32(1))
