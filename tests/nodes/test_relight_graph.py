@@ -51,3 +51,78 @@ class TestRelight:
             for a in (40, 41)
         )
         assert 0 < np.abs(one - two).max() < 0.05
+
+
+def planned(scene, outputs=("image",)):
+    """Fate and reason of every node for a scene, before anything runs."""
+    from graphface import Evaluator
+    from graphface.plan import plan
+
+    graph = graphface.load("relight")
+    bound = graph.bind({"photo": image_from_array(np.zeros((8, 8, 3), np.uint8)), "scene": scene})
+    return {p.name: p for p in plan(graph, bound, graph.targets(outputs), Evaluator())}
+
+
+SUN = {"type": "directional", "azimuth": 30}
+
+
+class TestOnlyWhatTheSceneCallsFor:
+    def test_no_geometry_for_the_photos_own_light(self):
+        """The scene that changes nothing runs no face operator at all."""
+        nodes = planned({"mode": "add"})
+        ran = {name for name, node in nodes.items() if node.fate == "run"}
+        assert ran == {"face/working", "relit", "image"}
+        assert "photo's own light" in nodes["face/mesh"].reason
+
+    @pytest.mark.parametrize(
+        ("scene", "node", "words"),
+        [
+            ({"lights": [{"type": "sh", "preset": "left"}]}, "shadows", "casts a shadow"),
+            ({"lights": [{**SUN, "shadow": "none"}]}, "shadows", "casts a shadow"),
+            ({"lights": [{**SUN, "azimuth": 180}]}, "shadows", "casts a shadow"),
+            ({"lights": [SUN]}, "scatter", "scatter: 0"),
+            ({"lights": [SUN]}, "highlights", "specular: 0"),
+            ({"lights": [SUN]}, "panorama", "no environment light"),
+            ({"lights": [SUN], "hair": 0, "background": 1}, "face/segment/matted", "background: 1"),
+            ({"lights": [SUN], "hair": 0, "background": 1}, "face/segment/classes", "background: 1"),
+            ({"lights": [SUN], "hair": 0, "background": 1}, "shine", "hair: 0"),
+        ],
+    )
+    def test_a_stage_is_skipped_with_the_reason(self, scene, node, words):
+        """Exactly, before the run, and in words."""
+        found = planned(scene)[node]
+        assert found.fate == "skipped"
+        assert words in found.reason
+
+    @pytest.mark.parametrize(
+        ("scene", "node"),
+        [
+            ({"lights": [SUN]}, "shadows"),
+            ({"lights": [SUN], "scatter": 0.03}, "scatter"),
+            ({"lights": [SUN], "specular": 1}, "highlights"),
+            ({"lights": [SUN], "hair": 0.5, "background": 1}, "shine"),
+            ({"lights": [SUN], "hair": 0, "background": 0.5}, "face/segment/classes"),
+        ],
+    )
+    def test_a_stage_that_is_asked_for_runs(self, scene, node):
+        """The other side of the same rules."""
+        assert planned(scene)[node].fate == "run"
+
+
+class TestScenes:
+    @pytest.mark.parametrize("name", ["window-left", "candle", "red-blue", "stage"])
+    def test_a_shipped_scene_makes_a_picture(self, astronaut, name):
+        """Finite, in range, and another picture than before."""
+        pixels = relit(astronaut, f"scenes/{name}.yaml", profiles=["draft"]).pixels
+        assert np.isfinite(pixels).all()
+        assert pixels.min() >= 0
+        assert pixels.max() <= 1
+        assert np.abs(pixels - astronaut.pixels).mean() > 0.01
+
+    def test_light_of_another_portrait(self, astronaut):
+        """A portrait lit like itself stays what it is, but for what first-order light cannot say."""
+        try:
+            image = graphface.load("relight-like").run(photo=astronaut, reference=astronaut)["image"]
+        except graphface.RunError as error:
+            pytest.skip(str(error))
+        assert np.abs(image.pixels - astronaut.pixels).mean() < 0.02
