@@ -235,11 +235,53 @@ def light(
     figures = list(light_truth(data))
     measures = ("mesh_degrees", "true_degrees", "milliseconds")
     kinds = dict.fromkeys((f.order, f.robust) for f in figures)
-    rows = [
-        (str(o), r, *_means([f for f in figures if (f.order, f.robust) == (o, r)], measures)) for o, r in kinds
-    ]
+    rows = [(str(o), r, *_means([f for f in figures if (f.order, f.robust) == (o, r)], measures)) for o, r in kinds]
     print_table(("order", "robust", ">FaceMesh normals, degrees", ">true normals, degrees", ">milliseconds"), rows)
     _write_csv(figures, csv)
+
+
+@app.command()
+def makeup(
+    out: Annotated[Path, typer.Argument(help="Folder for the results: METHOD/A_from_B.png, as score.py reads them.")],
+    data: Data = Path("../shared/data"),
+    swaps: Annotated[bool, typer.Option(help="Each optical flow and each way of blending in turn.")] = True,
+    intrinsic: Annotated[bool, typer.Option(help="Each intrinsic method in turn; takes minutes.")] = False,
+) -> None:
+    """Give path-traced heads each other's makeup and compare with the truth."""
+    from graphface.nodes.commands.transfer_truth import makeup_truth
+    from graphface.terminal import print_table
+
+    scored = makeup_truth(data, out, swaps=swaps, intrinsic=intrinsic)
+    rows = [(s.method, f"{s.psnr:.2f}", f"{s.ssim:.3f}", f"{s.milliseconds:.0f}") for s in scored]
+    print_table(("method", ">PSNR dB", ">SSIM", ">milliseconds"), rows)
+
+
+@app.command()
+def transfer(
+    photos: Annotated[str, typer.Argument(help="Inputs: a folder, or a pattern like faces/nm_*.png.")],
+    references: Annotated[str, typer.Argument(help="References: likewise.")],
+    table: Annotated[Path | None, typer.Option(help="Also draw the table of results into this picture.")] = None,
+    graph: Annotated[str, typer.Option(help="What --table draws: makeup or transfer.")] = "makeup",
+) -> None:
+    """Faithfulness, realism and predictability of makeup on pairs of photographs; with --table, their picture."""
+    from graphface.mapping import read_map
+    from graphface.nodes.commands.transfer_criteria import Criteria, criteria
+    from graphface.nodes.commands.transfer_table import transfer_table
+    from graphface.nodes.image import write_picture
+    from graphface.terminal import print_table
+
+    inputs, others = ([Path(f) for f in read_map(f"photos={where}")[1]] for where in (photos, references))
+    if table is not None:
+        write_picture(transfer_table(inputs, others, graph=graph), table)
+    rows = []
+    for found in criteria(inputs, others):
+        if not isinstance(found, Criteria):
+            rows.append((*found, "", "", "", ""))
+            continue
+        figures = (100 * found.shift, found.similarity, found.seam, found.albedo_before, found.albedo_after)
+        rows.append((found.photo, found.reference, *(f"{figure:.3f}" for figure in figures)))
+    headers = (">landmark shift, % of eyes", ">similarity", ">seam", ">albedo before", ">albedo after")
+    print_table(("photo", "reference", *headers), rows)
 
 
 def _means(figures: Sequence[object], measures: Iterable[str]) -> list[str]:
