@@ -111,7 +111,8 @@ def _header(data: bytes, path: Path) -> _Header:
 
 
 def _channels(listed: bytes) -> list[tuple[str, np.dtype[np.generic]]]:
-    channels, place = [], 0
+    channels: list[tuple[str, np.dtype[np.generic]]] = []
+    place = 0
     while listed[place]:
         name, place = _word(listed, place)
         kind, _, across, down = struct.unpack_from("<iB3xii", listed, place)

@@ -96,8 +96,8 @@ def guided(values: FloatArray, sigma: float, *, edge: float = 0.05) -> FloatArra
         return np.asarray(cv2.blur(x, (2 * radius + 1,) * 2, borderType=cv2.BORDER_REPLICATE), np.float32)
 
     mean = box(values)
-    variance = np.maximum(box(values * values) - mean * mean, 0)
-    slope = variance / (variance + np.float32(edge * edge))
+    variance = np.maximum(box(values * values) - mean * mean, np.float32(0))
+    slope = np.asarray(variance / (variance + np.float32(edge * edge)), np.float32)
     return box(slope) * values + box(mean * (1 - slope))
 
 

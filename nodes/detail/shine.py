@@ -33,6 +33,7 @@ def shine(
     def edit(values: FloatArray) -> FloatArray:
         grey = values.mean(axis=2, dtype=np.float32)
         excess = gaussian(grey, 0.02 * unit) - gaussian(grey, SIZE * unit)
-        return values + np.float32(strength - 1) * np.maximum(excess, 0)[..., None]
+        edited = values + np.float32(strength - 1) * np.maximum(excess, 0)[..., None]
+        return np.asarray(edited, np.float32)
 
     return detail if strength == 1 else edited_map(detail, edit, where)

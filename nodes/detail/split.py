@@ -70,7 +70,8 @@ def _grey(pixels: FloatArray) -> FloatArray:
 def _bounded(ratio: FloatArray, bound: float) -> FloatArray:
     """exp of a log ratio, squeezed so that it nears `bound` and its inverse without a kink."""
     limit = np.float32(max(np.log(bound), 1e-6))
-    return np.exp(limit * np.tanh(ratio / limit))
+    gain: FloatArray = np.exp(limit * np.tanh(ratio / limit))
+    return gain
 
 
 def _unit(landmarks: Landmarks | None, photo: Image) -> float:

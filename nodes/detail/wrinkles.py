@@ -29,6 +29,7 @@ def wrinkles(
 
     def edit(values: FloatArray) -> FloatArray:
         _, lines, folds = decomposed(values, landmarks, "guided")
-        return values + np.float32(strength - 1) * (np.minimum(lines, 0) + np.minimum(folds, 0))
+        dark = np.minimum(lines, 0) + np.minimum(folds, 0)
+        return (values + (strength - 1) * dark).astype(np.float32, copy=False)
 
     return detail if strength == 1 else edited_map(detail, edit, where)

@@ -61,7 +61,8 @@ def l1_flatten(
 
 
 def _alike(step: FloatArray, similar: float) -> FloatArray:
-    return np.exp(-np.einsum("hwc,hwc->hw", step, step) / np.float32(2 * similar**2))
+    alike: FloatArray = np.exp(-np.einsum("hwc,hwc->hw", step, step) / np.float32(2 * similar**2))
+    return alike
 
 
 def _flattened(values: FloatArray, weights: list[FloatArray], flatness: float, iterations: int) -> FloatArray:

@@ -37,9 +37,9 @@ def lifted(small: FloatArray, guide: FloatArray, full_guide: FloatArray, *, radi
         return np.asarray(cv2.blur(x, (2 * radius + 1,) * 2, borderType=cv2.BORDER_REPLICATE), np.float32)
 
     mean, mean_guide = box(small), box(guide)
-    variance = np.maximum(box(guide * guide) - mean_guide * mean_guide, 0)
+    variance = np.maximum(box(guide * guide) - mean_guide * mean_guide, np.float32(0))
     slope = (box(small * guide) - mean * mean_guide) / (variance + np.float32(1e-4))
-    slope = np.clip(slope, -1, 2)  # log shading moves with log intensity, or not at all
+    slope = np.asarray(np.clip(slope, -1, 2), np.float32)  # log shading moves with log intensity, or not at all
     size = (full_guide.shape[1], full_guide.shape[0])
     a, b = (
         np.asarray(cv2.resize(box(x), size, interpolation=cv2.INTER_LINEAR), np.float32)

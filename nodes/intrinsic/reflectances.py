@@ -38,7 +38,7 @@ def clusters(intensity: FloatArray, hue: FloatArray, count: int) -> Palette:
     _, label, centers = cv2.kmeans(points, count, start[:, None], criteria, 1, cv2.KMEANS_USE_INITIAL_LABELS)
     centers = np.asarray(centers, np.float32)
     label = np.asarray(label, np.intp).reshape(intensity.shape)
-    return Palette(label, centers[:, 0] / np.float32(_BRIGHTNESS), centers[:, 1:] / 3)
+    return Palette(label, centers[:, 0] / np.float32(_BRIGHTNESS), centers[:, 1:] / np.float32(3))
 
 
 def settled(palette: Palette, label: NDArray[np.intp], intensity: FloatArray) -> Palette:

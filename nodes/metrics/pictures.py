@@ -100,7 +100,7 @@ def _ssim_terms(one: Wide, other: Wide, mask: Mask | None) -> tuple[float, float
     return _mean(luminance * contrast, mask), _mean(contrast, mask)
 
 
-def _channels(values: NDArray[np.floating[Any]]) -> Wide:
+def _channels(values: NDArray[Any]) -> Wide:
     """H x W x c in float64."""
     wide = np.asarray(values, np.float64)
     return wide[..., None] if wide.ndim == 2 else wide

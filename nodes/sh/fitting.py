@@ -155,10 +155,11 @@ def _solve(
 ) -> NDArray[np.float64]:
     """Ridge regression, (n,) or (n, channels)."""
     gram = _gram(design, weights) if gram is None else gram
+    weighted = design * weights[:, None]
     total = max(float(weights.sum()), 1e-12)
     penalty = np.full(len(gram), ridge * total)
     penalty[0] = 1e-12 * total
-    solved: NDArray[np.float64] = np.linalg.solve(gram + np.diag(penalty), (design * weights[:, None]).T @ values)
+    solved: NDArray[np.float64] = np.linalg.solve(gram + np.diag(penalty), weighted.T @ values)
     return solved
 
 
@@ -173,7 +174,7 @@ def _reweighted(
 ) -> NDArray[np.float64]:
     """Iterate: misfits give weights, weights give the next fit. A pixel's channels are weighted together."""
     for _ in range(_ROUNDS):
-        misfit = np.abs(values - design @ coefficients)
+        misfit = np.abs(np.asarray(values - design @ coefficients, np.float64))
         misfit = misfit.max(axis=1) if misfit.ndim == 2 else misfit
         if robust == "huber":
             limit = max(_HUBER * 1.4826 * float(np.median(misfit)), 1e-6)
