@@ -98,7 +98,8 @@ def solve(
         steps: at most so many accepted or refused steps.
         tolerance: relative decrease of the cost below which the search rests.
         shared: the first so many coefficients are the same in all views.
-        follow: renews the correspondences after every accepted step.
+        follow: renews the correspondences after every accepted step; in the second half of the steps they are held, so
+            that the search comes to rest where two candidates take turns.
     """
     views, problems = list(start), list(problems)
     columns = _columns([len(v.x) for v in views], shared)
@@ -107,7 +108,7 @@ def solve(
     cost = sum(map(view_cost, problems, views))
     costs = [cost]
     hessian, gradient = _assembled(problems, views, columns, size)
-    for _ in range(steps):
+    for step_number in range(steps):
         damped = hessian + np.diag(damping * np.maximum(np.diag(hessian), 1e-12))
         step = -np.linalg.solve(damped, gradient)
         trial = [_moved(p, v, step[c]) for p, v, c in zip(problems, views, columns, strict=True)]
@@ -120,7 +121,7 @@ def solve(
             continue
         rested = cost - trial_cost <= tolerance * max(abs(cost), 1e-9)
         views, cost, damping = trial, trial_cost, max(damping / 6, 1e-9)
-        if follow is not None:
+        if follow is not None and step_number < steps // 2:
             problems = [follow(p, v) for p, v in zip(problems, views, strict=True)]
             cost = sum(map(view_cost, problems, views))
         costs.append(cost)
