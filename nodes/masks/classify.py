@@ -122,17 +122,20 @@ def _likelihoods(values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_]
 
 
 def _connected(belief: FloatArray, layout: Layout, unit: float) -> FloatArray:
-    """Hair that does not hang on the head and face that does not hang on the face become background.
+    """Hair that does not hang on the head becomes skin or background, face that does not hang on the face background.
 
     What hangs by a strip thinner than `STRIP` does not hang: the shadow of a jaw may tie a dark suit to dark hair.
     """
     belief = belief.copy()
     head = (layout.head < 0) & (layout.high > CHIN + 0.5)
+    throat = (layout.outline < 0.05) | ((layout.neck < 0.05) & (layout.high > CHIN - 0.3))
     skin = (layout.outline < 0) | (layout.neck < 0) | head
     for label, root, stays in ((HAIR, head & (layout.high > EYE_LINE), head), (FACE, skin, skin)):
-        stray = _apart(belief[..., label] > 0.3, root, unit) & ~stays
-        belief[..., BACKDROP] += np.where(stray, belief[..., label], 0)
-        belief[..., label] *= ~stray
+        stray = np.where(_apart(belief[..., label] > 0.3, root, unit) & ~stays, belief[..., label], 0)
+        belief[..., label] -= stray
+        shadow = throat if label == HAIR else np.zeros_like(throat)
+        belief[..., FACE] += stray * shadow
+        belief[..., BACKDROP] += stray * ~shadow
     return belief
 
 

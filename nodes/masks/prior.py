@@ -77,7 +77,8 @@ def log_prior(layout: Layout) -> FloatArray:
     hair -= np.where(high > EYE_LINE + 0.2, 4.0, 12.0) * inner
     hair -= 5.0 * np.clip(1.2 * (0.75 - side), 0, 1) * ((layout.neck < 0) & (layout.outline > 0))
 
-    backdrop = np.clip(0.5 + 3.0 * layout.head, -4, 1.5) - 1.5 * np.clip(below_chin * 2 - side, 0, 1.5)
+    body = np.minimum(layout.head, layout.neck + 0.05)
+    backdrop = np.clip(0.5 + 3.0 * body, -4, 1.5) - 1.5 * np.clip(below_chin * 2 - side, 0, 1.5)
     clothes = np.clip(-3 + 5.0 * (below_chin - 0.35 + 0.15 * np.minimum(side, 1)), -8, 2.0)
     clothes -= np.where(layout.neck < 0, 1.0, 0.0) * np.clip(1.2 - below_chin * 1.5, 0, 1)
     scores = np.stack([face, hair, backdrop, clothes], axis=2).astype(np.float32)

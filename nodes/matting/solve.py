@@ -19,7 +19,7 @@ STEPS = 500
 DISCARD, FILL = 3e-3, 8
 """Entries of the factors below the first are dropped; they may have at most `FILL` times the entries of the matrix."""
 
-SHIFTS = (1e-3, 1e-2, 0.1, 1.0, 10.0)
+SHIFTS = (1e-2, 0.1, 1.0, 10.0)
 """Added to the diagonal, each where the one before did not make it positive enough."""
 
 
