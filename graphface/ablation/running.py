@@ -40,7 +40,7 @@ class Cell:
     shared: int
     slowest: tuple[str, float]
     swapped: float
-    """Seconds of the nodes that were swapped."""
+    """Seconds of the nodes whose operator or parameters are not the same in every variant."""
     warnings: tuple[str, ...] = ()
     failure: str = ""
 
@@ -113,14 +113,24 @@ def ablate(
         raise UsageError(f"{base.name} declares no output; name one")
     evaluator = evaluator if evaluator is not None else Evaluator(memory=MemoryTier())
     graphs = [_loaded(source, variant, given) for variant in chosen]
+    swapped = differing(graphs)
     known: dict[bytes, float] = {}
     kept = list(truths) if truths else [None] * len(cases)
     cells = []
     for index, case in enumerate(cases):
         for variant, graph in zip(chosen, graphs, strict=True):
             said(variant.name)
-            cells.append(_cell(graph, variant, index, case, name, kept[index], metrics, evaluator, known))
+            cells.append(_cell(graph, variant, index, case, name, kept[index], metrics, evaluator, known, swapped))
     return Ablation(base, name, chosen, list(cases), cells, kept)
+
+
+def differing(graphs: Sequence[Graph]) -> frozenset[str]:
+    """The nodes that are not the same operator with the same parameters in all of these graphs."""
+    seen: dict[str, set[str]] = {}
+    for graph in graphs:
+        for step in graph.steps:
+            seen.setdefault(step.name, set()).add(f"{step.operator.name} {sorted(step.parameters.items())}")
+    return frozenset(name for name, forms in seen.items() if len(forms) > 1)
 
 
 class _Times(Observer):
@@ -154,6 +164,7 @@ def _cell(
     metrics: Sequence[Metric],
     evaluator: Evaluator,
     known: dict[bytes, float],
+    swapped: frozenset[str],
 ) -> Cell:
     bound, targets = graph.bind(case), graph.targets([output])
     times = _Times()
@@ -184,7 +195,7 @@ def _cell(
         nodes=len(needed),
         shared=sum(key not in ran for key in needed),
         slowest=(needed[slowest].name, known[slowest]) if needed else ("", 0.0),
-        swapped=sum(known[key] for key, step in needed.items() if step.name in variant.replace),
+        swapped=sum(known[key] for key, step in needed.items() if step.name in swapped),
         warnings=tuple(f"{r.name}: {w}" for r in times.records for w in r.warnings),
         failure=failure,
     )

@@ -61,6 +61,12 @@ class TestAblate:
         assert first.alone == first.spent
         assert second.alone > second.spent
 
+    @pytest.mark.parametrize("swap", ["last=add,subtract", "start.plus=1,2"])
+    def test_time_of_the_swapped_nodes(self, registry, swap):
+        """Charged apart, whichever way they were swapped."""
+        done = ablate(GRAPH, [swap], [{"x": 2.0}], loading={"registry": registry})
+        assert all(0 < cell.swapped < cell.alone for cell in done.cells)
+
     def test_says_what_sharing_saved(self, registry):
         """In nodes and in seconds."""
         done = ablate(GRAPH, ["last=add,subtract"], [{"x": 2.0}], loading={"registry": registry})
