@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import Annotated
 
 import numpy as np
@@ -12,8 +14,8 @@ from graphface import node
 from graphface.nodes.detail.rendering import applied, rendering
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
 
-_STRIP = 1 << 14
-"""Values worked on at a time: a dozen arrays of 64 KB."""
+_STRIP = 1 << 15
+"""Values worked on at a time: a dozen arrays of 128 KB."""
 
 
 @node("blend.recombine")
@@ -38,16 +40,20 @@ def recombine(
         An image in the photo's encoding, within [0, 1] (or the photo's own range where that is wider).
     """
     pixels = np.empty_like(photo.pixels)
-    for rows in _strips(photo):
+
+    def strip(rows: slice) -> None:
         before, part = photo.pixels[rows], _strip(detail, rows)
         change = applied(part, rendering(albedo[rows], shading[rows]))
         change -= before
         np.add(before, _bend(change, before, shoulder), out=pixels[rows])
+
+    with ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
+        list(pool.map(strip, _strips(photo)))
     return photo.with_pixels(pixels)
 
 
 def _strips(photo: Image) -> Iterator[slice]:
-    """Rows at a time whose values stay in the processor's cache: twice as fast as the whole picture at once."""
+    """Rows at a time whose values stay in the processor's cache: twice as fast as the whole picture at once, and each core takes its own."""
     step = max(1, _STRIP // max(1, 3 * photo.width))
     return (slice(top, top + step) for top in range(0, photo.height, step))
 

@@ -26,6 +26,12 @@ _NECK = (-0.35, -2.2)
 _BEHIND = 0.2
 """How far the skull stays behind the middle of the face, as a share of its size, so that it does not poke through."""
 
+_RECESS = 0.12
+"""How far the neck stands further back than upright: heads in photos look ahead, chin forward."""
+
+_TEMPLE, _FREE = 0.25, 0.35
+"""Height of the temples in the mean face's frame; how far the skull stays behind the jaw, as a share of its size."""
+
 _NEAR, _REACH = 0.12, 0.4
 """Angles, seen from the middle of the skull, over which the skull follows the face's rim, and after which it no longer
 does."""
@@ -52,7 +58,7 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
         return mesh
     rotation, scale, middle = pose
     own = (mesh.vertices[:_POINTS].astype(np.float64) - middle) @ rotation / scale
-    parts = [_skull(own), _cylinder(NECK_RADIUS, NECK_DEPTH, *_NECK)]
+    parts = [_skull(own), _cylinder(NECK_RADIUS, NECK_DEPTH - _RECESS, *_NECK)]
     vertices, normals, triangles = [mesh.vertices], [mesh.normals], [mesh.triangles]
     count = len(mesh.vertices)
     for points, outward, faces in parts:
@@ -97,7 +103,8 @@ def _skull(face: Points) -> tuple[Points, Points, NDArray[np.int64]]:
     size = np.linalg.norm(seen, axis=1)
     rim = _rim()
     inside = np.linalg.norm(face[:, None] - face[None, rim], axis=2).min(axis=1)
-    goal = size - np.minimum(inside / 2, _BEHIND)
+    below = np.clip((_TEMPLE - face[:, 1]) / _TEMPLE, 0, 1)  # the jaw stands free of skull and neck, and shades them
+    goal = size - np.maximum(np.minimum(inside / 2, _BEHIND), _FREE * below)
     cosine = np.clip(unit @ (seen / np.maximum(size, 1e-6)[:, None]).T, -1, 1)
     weight = np.exp(-np.square(np.arccos(cosine) / _NEAR) / 2)
     rest = np.exp(-((_REACH / _NEAR) ** 2) / 2)

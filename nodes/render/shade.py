@@ -65,13 +65,16 @@ def shade(
     Returns:
         float32 in the photo's encoding, H x W, or H x W x 3 where the scene (or the estimate) is coloured.
     """
-    grid, covered = _grid(normals, detail / max(float(mesh.interocular), 1e-3) if mesh is not None else 1.0)
+    scale = detail / max(float(mesh.interocular), 1e-3) if mesh is not None else 1.0
+    grid = np.ix_(*(grid_middles(n, scale) for n in normals.shape[:2]))
+    facing = normals[grid]
+    covered = has_surface(facing)
     encoded = photo.encoding == "srgb"
     before = estimated[grid][covered].astype(np.float32, copy=False)
     old = np.maximum(decode_srgb(before) if encoded else before, 0)
     points = None if mesh is None or surface is None or not scene.local else _points(grid, covered, surface, mesh)
     visible = {} if shadows is None else {n: shadows.of(n, covered.shape)[covered] for n in shadows.lights}
-    new = irradiance(scene, normals[grid][covered], points, visible, panorama)
+    new = irradiance(scene, facing[covered], points, visible, panorama)
     if new.ndim < old.ndim:
         new = new[:, None]
     elif old.ndim < new.ndim:
@@ -86,13 +89,6 @@ def shade(
     change = np.zeros((*covered.shape, *linear.shape[1:]), np.float32)
     change[covered] = (encode_srgb(linear.astype(np.float32)) if encoded else linear) - before
     return _changed(estimated, change, normals)
-
-
-def _grid(normals: Normals, scale: float) -> tuple[tuple[NDArray[np.intp], NDArray[np.intp]], NDArray[np.bool_]]:
-    """Rows and columns, `scale` of them a pixel and at most all, and where they meet a surface."""
-    rows, columns = (grid_middles(n, scale) for n in normals.shape[:2])
-    grid = np.ix_(rows, columns)
-    return grid, has_surface(normals[grid])
 
 
 def _points(
@@ -114,7 +110,7 @@ def _changed(estimated: Shading, change: FloatArray, normals: Normals) -> Shadin
     if change.ndim > estimated.ndim:
         estimated = estimated[..., None]
     shading = np.maximum(estimated + change, 0)
-    covered = has_surface(normals)
+    covered = normals[..., 2] != 0  # what the camera sees is never quite sideways
     shading *= covered if shading.ndim == 2 else covered[..., None]
     return shading.astype(np.float32, copy=False)
 
