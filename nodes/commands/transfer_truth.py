@@ -31,7 +31,7 @@ SWAPS: dict[str, dict[str, str]] = {
     "blend.multiband": {"blended": "blend.multiband"},
     "blend.poisson": {"blended": "blend.poisson"},
 }
-"""Name to the replacements in makeup.yaml that it stands for. What earlier rows computed is reused and not timed again."""
+"""Name to the replacements in makeup.yaml that it stands for; what earlier rows computed is reused, not timed again."""
 
 INTRINSIC = ("retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 

@@ -1,0 +1,141 @@
+"""Detail transfer of nine regions."""
+
+from typing import get_args
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from graphface import GraphfaceWarning, load
+from graphface.nodes import regions
+from graphface.nodes.transfer import Region, detail, mask, recoloured
+from graphface.nodes.types import DetailMap, Landmarks
+from graphface.nodes.warp.mesh import mesh as correspond
+
+
+@pytest.fixture
+def face(make_face):
+    photo, landmarks, mesh, surface = make_face(size=200, scale=0.45)
+    return regions.nine(photo, landmarks), correspond(surface, mesh, surface, mesh), landmarks
+
+
+class TestMask:
+    def test_names_are_those_of_the_regions(self):
+        """The names that `take` accepts are the nine regions."""
+        assert set(get_args(Region)) == set(regions.NAMES)
+
+    def test_one_region(self, face):
+        """Taking the nose takes the nose, and nothing where there is none of it."""
+        nine, correspondence, _ = face
+        taken = mask(nine, correspondence, take=("nose",))
+        np.testing.assert_allclose(taken, nine.nose * correspondence.inside, atol=1e-6)
+
+    def test_twice_is_once(self, face):
+        """A region named twice counts once."""
+        nine, correspondence, _ = face
+        once, twice = (mask(nine, correspondence, take=take) for take in (("nose",), ("nose", "nose")))
+        np.testing.assert_array_equal(once, twice)
+
+    def test_none_is_told(self, face):
+        """An empty list of regions changes nothing, and says so."""
+        nine, correspondence, _ = face
+        with pytest.warns(GraphfaceWarning, match="no region"):
+            assert mask(nine, correspondence, take=()).max() == 0
+
+    def test_own_strength(self, face):
+        """A region's own strength stands in place of the common one."""
+        nine, correspondence, _ = face
+        taken = mask(nine, correspondence, strength=0.0, strengths={"mouth": 0.5})
+        np.testing.assert_allclose(taken, 0.5 * nine.mouth * correspondence.inside, atol=1e-6)
+
+    def test_a_users_mask(self, face):
+        """A user's mask is multiplied on top."""
+        nine, correspondence, _ = face
+        assert mask(nine, correspondence, given=np.zeros_like(nine.nose)).max() == 0
+
+
+class TestDetail:
+    def test_no_mask_no_change(self, face, rng):
+        """Without a mask the very map comes back."""
+        _, _, landmarks = face
+        own, other = (DetailMap(rng.random((200, 200, 3), np.float32)) for _ in range(2))
+        assert detail(own, other, np.zeros((200, 200), np.float32), landmarks) is own
+
+    def test_everything(self, face, rng):
+        """With all frequencies and a full mask it is the reference's map."""
+        _, _, landmarks = face
+        own, other = (DetailMap(rng.random((200, 200, 3), np.float32)) for _ in range(2))
+        got = detail(own, other, np.ones((200, 200), np.float32), landmarks, broadest=None)
+        np.testing.assert_allclose(got.offset, other.offset, atol=1e-6)
+
+    def test_broad_light_stays(self, face):
+        """A constant difference, which is light, does not move."""
+        _, _, landmarks = face
+        own, other = (DetailMap(np.full((200, 200, 3), v, np.float32)) for v in (0.0, 0.3))
+        got = detail(own, other, np.ones((200, 200), np.float32), landmarks, broadest=0.2)
+        np.testing.assert_allclose(got.offset, 0, atol=1e-3)
+
+    def test_what_is_too_fine_stays(self, face, rng):
+        """Below the finest scale, noise of the reference is not taken."""
+        _, _, landmarks = face
+        own, noise = (
+            DetailMap(np.zeros((200, 200, 3), np.float32)),
+            DetailMap(rng.standard_normal((200, 200, 3), np.float32)),
+        )
+        got = detail(own, noise, np.ones((200, 200), np.float32), landmarks, broadest=None, finest=0.1)
+        assert got.offset.std() < 0.1 * noise.offset.std()
+
+    @settings(max_examples=30, deadline=None)
+    @given(
+        height=st.integers(1, 24),
+        width=st.integers(1, 24),
+        broadest=st.one_of(st.none(), st.floats(0.01, 2)),
+        finest=st.floats(0, 2),
+        eyes=st.floats(0, 50),
+    )
+    def test_any_size_is_finite(self, height, width, broadest, finest, eyes):
+        """Single pixels and coincident eyes: finite."""
+        random = np.random.default_rng(1)
+        own, other = (DetailMap(random.random((height, width, 3), np.float32)) for _ in range(2))
+        landmarks = Landmarks(np.zeros((468, 3), np.float32), "facemesh468")
+        landmarks.points[263, 0] = eyes
+        got = detail(
+            own, other, random.random((height, width), np.float32), landmarks, broadest=broadest, finest=finest
+        )
+        assert np.isfinite(got.offset).all()
+
+
+class TestRecoloured:
+    def test_equal_albedo(self, rng):
+        """On skin of the same colour detail stays as it is."""
+        offset, rho = (rng.random((4, 4, 3), np.float32) for _ in range(2))
+        np.testing.assert_allclose(recoloured(DetailMap(offset), rho, rho).offset, offset, rtol=1e-5)
+
+    @settings(max_examples=50, deadline=None)
+    @given(own=st.floats(0, 1e4, width=32), other=st.floats(0, 1e4, width=32))
+    def test_bounded(self, own, other):
+        """No colour is divided by zero, none is multiplied by more than 3."""
+        ones = np.ones((1, 1, 3), np.float32)
+        got = recoloured(DetailMap(ones), ones * np.float32(other), ones * np.float32(own)).offset
+        assert (got >= 1 / 3.01).all()
+        assert (got <= 3.01).all()
+
+
+@pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")
+class TestGraph:
+    def test_a_face_onto_itself(self, shared):
+        """All nine regions of a face onto itself return the photo within 2/255."""
+        photo = shared / "faces" / "nm_sm1.jpg"
+        made = load("transfer").run(["image", "pair.working"], photo=photo, reference=photo)
+        assert np.abs(made["image"].pixels - made["pair.working"].pixels).max() <= 2 / 255
+
+    def test_only_what_was_asked_for(self, shared):
+        """Taking the nose leaves every pixel off the nose as it is."""
+        faces = shared / "faces"
+        graph = load("transfer", set={"mask.take": ["nose"]})
+        asked = ["image", "mask", "pair.working"]
+        made = graph.run(asked, photo=faces / "nm_sm1.jpg", reference=faces / "pd_roy-blunt.jpg")
+        change = np.abs(made["image"].pixels - made["pair.working"].pixels).max(axis=2)
+        assert change[made["mask"] == 0].max() < 1e-3
+        assert change[made["mask"] > 0.9].mean() > 0.01
