@@ -53,7 +53,7 @@ def recombine(
 
 
 def _strips(photo: Image) -> Iterator[slice]:
-    """Rows at a time whose values stay in the processor's cache: twice as fast as the whole picture at once, and each core takes its own."""
+    """Rows at a time whose values stay in the processor's cache: twice as fast as all at once."""
     step = max(1, _STRIP // max(1, 3 * photo.width))
     return (slice(top, top + step) for top in range(0, photo.height, step))
 

@@ -27,16 +27,19 @@ def bench() -> None:
 def relight(
     out: Annotated[Path, typer.Argument(help="Folder for the results: HEAD/LIGHT.png, as score.py reads them.")],
     data: Data = Path("../shared/data"),
-    method: Annotated[str, typer.Option(help="detail: additive, multiplicative, split or none.")] = "additive",
+    method: Annotated[str, typer.Option(help="detail: additive, multiplicative, split or none.")] = "split",
+    source: Annotated[str, typer.Option(help="Light of the photo that is relit: frontal, left45, top ...")] = "frontal",
     encoding: Annotated[str, typer.Option(help="Values that albedo and shading live in: srgb or linear.")] = "srgb",
 ) -> None:
     """Relight the path-traced heads by their known lights and compare with the truth."""
     from graphface import UsageError
-    from graphface.nodes.commands.truth import relight_truth
+    from graphface.nodes.commands.truth import LIGHTS, relight_truth
     from graphface.terminal import print_table
 
     if method not in ("additive", "multiplicative", "none", "split"):
         raise UsageError(f"--method {method!r}: expected additive, multiplicative, split or none")
+    if source not in ("frontal", *LIGHTS):
+        raise UsageError(f"--source {source!r}: expected frontal, {', '.join(LIGHTS)}")
     if encoding not in ("srgb", "linear"):
         raise UsageError(f"--encoding {encoding!r}: expected srgb or linear")
     rows = [
@@ -44,7 +47,7 @@ def relight(
             *(r.head, r.light, f"{r.psnr:.2f}", f"{r.si_psnr:.2f}"),
             *(f"{r.unchanged_psnr:.2f}", f"{r.unchanged_si_psnr:.2f}", f"{r.normal_error:.1f}"),
         )
-        for r in relight_truth(data, out, encoding=encoding, method=method)  # type: ignore[arg-type]
+        for r in relight_truth(data, out, encoding=encoding, method=method, source=source)  # type: ignore[arg-type]
     ]
     headers = ("head", "light", ">PSNR dB", ">scale-inv.", ">unchanged", ">scale-inv.", ">normals, degrees off")
     print_table(headers, rows)
@@ -88,6 +91,23 @@ def lights(
         took = f"{median(f.milliseconds for f in found):.0f}"
         rows.append(_lights_row(name, [(f.light, f.measured) for f in found], names, kind, digits, took))
     print_table(headers, rows)
+
+
+@app.command()
+def scenes(
+    photo: Annotated[Path | None, typer.Option(help="A photograph; scikit-image's astronaut by default.")] = None,
+    megapixels: Annotated[float, typer.Option(min=0.01, max=100, help="The photo is scaled to this.")] = 1.0,
+    repeats: Annotated[int, typer.Option(min=1, help="Edits timed for each scene; the median counts.")] = 5,
+) -> None:
+    """What each scene runs and costs once the representation is there, as a multiple of copying the arrays it reads."""
+    from graphface.nodes.commands.scene_cost import scene_costs
+    from graphface.terminal import print_table
+
+    rows = [
+        (c.scene, str(c.nodes), c.effects, f"{c.milliseconds:.0f}", f"{c.milliseconds / max(c.copy, 1e-6):.1f}")
+        for c in scene_costs(photo, megapixels, repeats)
+    ]
+    print_table(("scene", ">nodes run", "effects", ">ms", ">copies"), rows)
 
 
 @app.command()

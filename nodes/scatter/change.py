@@ -1,4 +1,4 @@
-"""What all methods of scattering share: the change of light, in linear values, smoothed on a small copy."""
+"""What all methods of scattering share: the change of light, in linear values, smoothed on a grid in face units."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from collections.abc import Callable
 import numpy as np
 
 from graphface.nodes.colour import decode_srgb, encode_srgb
+from graphface.nodes.render.places import grid_middles
 from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
 
 FINEST = 64.0
-"""Points per inter-ocular distance of the copy that is smoothed; what is lost on it is put back."""
+"""Points per inter-ocular distance of the grid: the widest Gaussian of skin is two of them."""
 
-Blur = Callable[[FloatArray, FloatArray, float], FloatArray]
-"""Change h x w x c, inside h x w, points per inter-ocular distance: the smoothed change, h x w x c or x 3."""
+Blur = Callable[[FloatArray, FloatArray, FloatArray, float], FloatArray]
+"""Change h x w x c, inside and depth h x w, points per inter-ocular distance: the smoothed change, h x w x c or 3."""
 
 
 def smoothed_change(
@@ -21,25 +22,26 @@ def smoothed_change(
 ) -> Shading:
     """`shading` with its difference to `estimated` blurred in linear light, on the surface only.
 
-    The blur works on a small copy, and what it takes away there is enlarged and taken away from the full shading: where
-    it does nothing, nothing is lost.
+    The blur works on a grid, and what it changes there is enlarged and added to the full shading: where it does
+    nothing, nothing is lost.
     """
     import cv2
 
     encoded = photo.encoding == "srgb"
-    old, new = (_channels(decode_srgb(v) if encoded else v) for v in (estimated, shading))
     unit = max(landmarks.interocular, 1e-3)
     scale = min(1.0, FINEST / unit)
     height, width = surface.coverage.shape
-    size = (max(1, round(width * scale)), max(1, round(height * scale)))
-    inside = np.asarray(cv2.resize(surface.coverage, size, interpolation=cv2.INTER_AREA), np.float32)
-    covered = _channels(surface.coverage)
-    change = _channels(np.asarray(cv2.resize((new - old) * covered, size, interpolation=cv2.INTER_AREA), np.float32))
-    change = change / np.maximum(inside, np.float32(1e-3))[..., None]
-    taken = np.asarray(blur(change, inside, unit * scale) - change, np.float32)
-    linear = new + _channels(np.asarray(cv2.resize(taken, (width, height)), np.float32)) * covered
-    linear = np.maximum(linear, 0)
-    result = encode_srgb(linear) if encoded else linear
+    grid = np.ix_(grid_middles(height, scale), grid_middles(width, scale))
+    before = _channels(shading[grid])
+    old, new = (_channels(decode_srgb(v) if encoded else v) for v in (estimated[grid], before))
+    inside, depth = surface.coverage[grid], surface.depth[grid]
+    change = (new - old) * inside[..., None]
+    linear = np.maximum(new + (blur(change, inside, depth, unit * scale) - change) * inside[..., None], 0)
+    step = np.asarray((encode_srgb(linear) if encoded else linear) - before, np.float32)
+    if step.shape[:2] != (height, width):
+        step = _channels(np.asarray(cv2.resize(step, (width, height), interpolation=cv2.INTER_LINEAR), np.float32))
+    step *= surface.coverage[..., None]
+    result = np.maximum(_channels(shading) + step, 0)
     return result if result.shape[2] > 1 else result[..., 0]
 
 

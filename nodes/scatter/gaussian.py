@@ -22,7 +22,7 @@ def gaussian(
     """
     import cv2
 
-    def blur(change: FloatArray, inside: FloatArray, unit: float) -> FloatArray:
+    def blur(change: FloatArray, inside: FloatArray, depth: FloatArray, unit: float) -> FloatArray:
         sigma = scene.scatter * unit
         if sigma < 0.3:  # less than a pixel
             return change

@@ -54,11 +54,8 @@ def screen_space(
     Returns:
         float32 H x W x 3.
     """
-    import cv2
 
-    def blur(change: FloatArray, inside: FloatArray, unit: float) -> FloatArray:
-        size = (inside.shape[1], inside.shape[0])
-        depth = np.asarray(cv2.resize(surface.depth, size, interpolation=cv2.INTER_NEAREST), np.float32)
+    def blur(change: FloatArray, inside: FloatArray, depth: FloatArray, unit: float) -> FloatArray:
         depth = depth * np.float32(depth_falloff / max(landmarks.interocular, 1e-3))
         change = np.ascontiguousarray(np.broadcast_to(change, (*change.shape[:2], 3)))
         spread = np.zeros_like(change)
