@@ -138,7 +138,7 @@ def _outline(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     import cv2
 
     shrunk = cv2.erode(mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderType=cv2.BORDER_REPLICATE)
-    return mask & (shrunk == 0)
+    return np.asarray(mask & (shrunk == 0))
 
 
 def _measured(work: Callable[[], Segmentation]) -> tuple[Segmentation, float, float]:

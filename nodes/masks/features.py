@@ -74,9 +74,8 @@ def features(
     if kind == "color":
         return color
     grey = np.asarray(cv2.cvtColor(clean, cv2.COLOR_RGB2GRAY), np.float32)
-    return np.concatenate(
-        [color, np.arcsinh(TEXTURE_GAIN * mr8(grey, bank)) * np.float32(TEXTURE_WEIGHTS)], axis=2, dtype=np.float32
-    )
+    texture = np.arcsinh(TEXTURE_GAIN * mr8(grey, bank)) * np.asarray(TEXTURE_WEIGHTS, np.float32)
+    return np.concatenate([color, texture], axis=2, dtype=np.float32)
 
 
 def in_space(pixels: FloatArray, space: ColorSpace) -> FloatArray:
@@ -92,4 +91,4 @@ def in_space(pixels: FloatArray, space: ColorSpace) -> FloatArray:
     if space == "ycrcb":
         return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_RGB2YCrCb), np.float32)
     lab = np.asarray(cv2.cvtColor(pixels, cv2.COLOR_RGB2Lab), np.float32)
-    return lab * np.float32([0.01, 0.02, 0.02])
+    return lab * np.asarray([0.01, 0.02, 0.02], np.float32)

@@ -110,7 +110,8 @@ def neck(pose: Pose) -> Points:
 
 
 def _ellipsoid(centre: tuple[float, float, float], half: tuple[float, float, float]) -> Points:
-    return _sphere() * np.array(half) + np.array(centre)
+    points: Points = _sphere() * np.array(half) + np.array(centre)
+    return points
 
 
 @cache

@@ -45,6 +45,8 @@ def _hair_needs(given: Mask | None) -> Needs:
 def given_hair(computed: Lazy[Hair], given: Mask | None = None) -> Hair:
     """What is hair for certain: the given mask, or what the detector found."""
     if given is None:
+        if computed is None:
+            raise UsageError("masks.given_hair: neither a given mask nor a computed one is plugged in")
         return computed
     mask = _checked("hair", given, given.shape)
     return Hair(mask, mask)
@@ -72,7 +74,7 @@ def given_labels(
     shape = _shape(given, computed.face.shape if computed is not None else None)
     certain = {name: _checked(name, part, shape) for name, part in given.items() if part is not None}
     total = np.asarray(sum(certain.values()), np.float32)
-    certain = {name: part / np.maximum(total, 1) for name, part in certain.items()}
+    certain = {name: np.asarray(part / np.maximum(total, 1), np.float32) for name, part in certain.items()}
     rest = np.maximum(1 - np.asarray(sum(certain.values()), np.float32), 0)
     others = {name: getattr(computed, name) for name in given if name not in certain}
     share = np.asarray(sum(others.values(), np.zeros(shape, np.float32)), np.float32)

@@ -59,14 +59,14 @@ def mean_field(
         away = np.square(clean[here] - clean[there]).sum(axis=2, keepdims=True)
         pairs.append((here, there, np.exp(-away / (2 * contrast**2)) / np.hypot(down, right)))
     total = 2 * sum(1 / np.hypot(*offset) for offset in offsets)
-    belief = np.exp(scores - log_sum_exp(scores))
+    belief: FloatArray = np.exp(scores - log_sum_exp(scores))
     for _ in range(rounds):
         support = np.zeros_like(scores)
         for here, there, weight in pairs:
             support[here] += weight * belief[there]
             support[there] += weight * belief[here]
         updated = scores + np.float32(strength / total) * support
-        belief = np.exp(updated - log_sum_exp(updated))
+        belief = np.asarray(np.exp(updated - log_sum_exp(updated)), np.float32)
     return belief
 
 

@@ -41,9 +41,7 @@ def mr8(grey: FloatArray, bank: Bank = "pyramid") -> FloatArray:
         else:
             size = (max(1, grey.shape[1] >> level), max(1, grey.shape[0] >> level))
             small = np.asarray(cv2.resize(grey, size, interpolation=cv2.INTER_AREA), np.float32)
-            maps += [
-                cv2.resize(m, grey.shape[::-1], interpolation=cv2.INTER_LINEAR) for m in _strongest(small, SCALES[0])
-            ]
+            maps += [_resized(m, grey.shape) for m in _strongest(small, SCALES[0])]
     blurred, laplacian = _isotropic(grey, bank)
     return np.stack([*maps, blurred, laplacian], axis=2).astype(np.float32, copy=False)
 
@@ -70,12 +68,15 @@ def _isotropic(grey: FloatArray, bank: Bank) -> tuple[FloatArray, FloatArray]:
     size = (max(1, grey.shape[1] >> level), max(1, grey.shape[0] >> level))
     small = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
     sigma = ROUND / (1 << level)
-    blurred = cv2.GaussianBlur(small, (0, 0), sigma, borderType=cv2.BORDER_REFLECT)
-    laplacian = sigma**2 * cv2.Laplacian(blurred, cv2.CV_32F, borderType=cv2.BORDER_REFLECT)
-    back = grey.shape[::-1]
-    return tuple(
-        np.asarray(cv2.resize(m, back, interpolation=cv2.INTER_LINEAR), np.float32) for m in (blurred, laplacian)
-    )  # type: ignore[return-value]
+    blurred = np.asarray(cv2.GaussianBlur(small, (0, 0), sigma, borderType=cv2.BORDER_REFLECT), np.float32)
+    laplacian = np.asarray(sigma**2 * cv2.Laplacian(blurred, cv2.CV_32F, borderType=cv2.BORDER_REFLECT), np.float32)
+    return _resized(blurred, grey.shape), _resized(laplacian, grey.shape)
+
+
+def _resized(values: FloatArray, shape: tuple[int, ...]) -> FloatArray:
+    import cv2
+
+    return np.asarray(cv2.resize(values, shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
 
 @cache
@@ -94,4 +95,4 @@ def oriented(across: float, along: float) -> tuple[tuple[NDArray[np.float32], ..
 
 def _normalized(kernel: NDArray[np.float64]) -> NDArray[np.float32]:
     kernel = kernel - kernel.mean()
-    return (kernel / np.abs(kernel).sum()).astype(np.float32)
+    return np.asarray(kernel / np.abs(kernel).sum(), np.float32)

@@ -68,4 +68,4 @@ def _cropped(unknown: NDArray[np.bool_], margin: int = 2) -> Band:
     if not len(rows):
         return Band((slice(0, 0), slice(0, 0)), np.zeros((0, 0), bool))
     part = tuple(slice(max(0, int(i[0]) - margin), int(i[-1]) + 1 + margin) for i in (rows, columns))
-    return Band(part, unknown[part])  # type: ignore[arg-type, index]
+    return Band(part, unknown[part])  # type: ignore[arg-type]

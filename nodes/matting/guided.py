@@ -45,7 +45,9 @@ def guided(
     height, width = guide.shape[:2]
     scale = min(1.0, resolution / unit)
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
-    small_guide, small_alphas = (cv2.resize(a, size, interpolation=cv2.INTER_AREA) for a in (guide, alphas))
+    small_guide, small_alphas = (
+        np.asarray(cv2.resize(a, size, interpolation=cv2.INTER_AREA), np.float32) for a in (guide, alphas)
+    )
     side = 2 * max(1, round(radius * unit * scale)) + 1
     functions = _linear_functions(small_guide, small_alphas.reshape(*size[::-1], 2), side, ridge)
     drawn = np.clip(_applied(functions, guide), 0, 1)
@@ -89,7 +91,7 @@ def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
             cofactors[i, j] = m[a, c] * m[b, d] - m[a, d] * m[b, c]
     determinant = (m[0] * cofactors[0]).sum(axis=0)
     solved: NDArray[np.float64] = np.einsum("jihw,hwjl->hwil", cofactors, right)
-    return (solved / np.maximum(determinant, 1e-30)[..., None, None]).astype(np.float32)
+    return np.asarray(solved / np.maximum(determinant, 1e-30)[..., None, None], np.float32)
 
 
 def _applied(functions: FloatArray, guide: FloatArray) -> FloatArray:
@@ -98,8 +100,8 @@ def _applied(functions: FloatArray, guide: FloatArray) -> FloatArray:
 
     height, width = guide.shape[:2]
     planes = [
-        cv2.resize(np.ascontiguousarray(functions[..., k]), (width, height), interpolation=cv2.INTER_LINEAR)
-        for k in range(8)
+        np.asarray(cv2.resize(plane, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
+        for plane in np.ascontiguousarray(np.moveaxis(functions, 2, 0))
     ]
     channels = [np.ascontiguousarray(guide[..., c]) for c in range(3)]
     for k in range(2):

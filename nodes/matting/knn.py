@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
@@ -70,7 +71,7 @@ def knn(
     return merged(labels, band, solve_alphas(laplacian[:, wanted], right, guess, trust=trust, tolerance=tolerance))
 
 
-def _features(pixels: FloatArray, y: np.ndarray, x: np.ndarray, unit: float) -> FloatArray:  # type: ignore[type-arg]
+def _features(pixels: FloatArray, y: NDArray[np.intp], x: NDArray[np.intp], unit: float) -> FloatArray:
     """Colour and place of the chosen pixels, (n, 5)."""
     clean = np.clip(np.nan_to_num(pixels), 0, 1).astype(np.float32, copy=False)
     color = in_space(clean, "lab")[y, x]

@@ -72,4 +72,4 @@ def _preconditioner(system: Any) -> Callable[[NDArray[np.float64]], NDArray[np.f
         warn(f"matting: incomplete Cholesky failed ({error}); the diagonal is the preconditioner, which takes longer")
         diagonal = np.maximum(system.diagonal(), 1e-12)
         return lambda residual: residual / diagonal
-    return lambda residual: factors(residual)  # type: ignore[no-any-return]
+    return lambda residual: factors(residual)
