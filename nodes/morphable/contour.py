@@ -53,4 +53,4 @@ def seen(projected: NDArray[np.float64], across: NDArray[np.float64], points: ND
         points: (n,) numbers of the jaw points, 0 to 16.
     """
     reach = projected @ across * np.sign(points - CHIN)[:, None]
-    return reach.argmax(axis=1)
+    return np.asarray(reach.argmax(axis=1), np.intp)

@@ -152,7 +152,8 @@ def _within_people(photos: Array, names: Sequence[str], topology: Topology) -> A
 
 def _frontal(shapes: Array, mean: Array) -> Array:
     turned_back, turns = aligned(shapes, mean)
-    return turned_back[turns[:, 2, 2] > _STEEPEST]
+    frontal: Array = turned_back[turns[:, 2, 2] > _STEEPEST]
+    return frontal
 
 
 def _frontal_of_people(photos: Array, names: list[str], mean: Array) -> tuple[Array, list[str]]:
@@ -171,8 +172,7 @@ def _mirrored(shapes: Array, topology: Topology) -> Array:
 def _coefficients(shapes: Array, mean: Array, directions: Array) -> Array:
     """Least-squares coefficients (F, K)."""
     apart = (shapes - mean).reshape(len(shapes), -1)
-    coefficients: Array = np.linalg.lstsq(directions.T, apart.T, rcond=None)[0].T
-    return coefficients
+    return np.asarray(np.linalg.lstsq(directions.T, apart.T, rcond=None)[0].T, np.float64)
 
 
 def _left(shapes: Array, mean: Array, directions: Array) -> float:

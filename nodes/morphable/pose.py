@@ -42,7 +42,7 @@ def closed_form(shape: Array, points: Array, *, rounds: int = 8, ridge: float = 
         scatter = weighted.T @ (shape - middle)
         floor = ridge * max(float(np.trace(scatter)), 1e-12)
         affine = np.linalg.solve(scatter + floor * np.eye(3), weighted.T @ (points - center)).T
-        rotation, scale = _nearest_rotation(affine)
+        rotation, scale = _nearest_rotation(np.asarray(affine, np.float64))
         offset = center - scale * rotation[:2] @ middle
         error = np.linalg.norm(points - offset - scale * shape @ rotation[:2].T, axis=1)
         spread = max(3 * float(np.median(error)), 1e-3 * scale, 1e-12)

@@ -110,7 +110,7 @@ def solve(
     hessian, gradient = _assembled(problems, views, columns, size)
     for step_number in range(steps):
         damped = hessian + np.diag(damping * np.maximum(np.diag(hessian), 1e-12))
-        step = -np.linalg.solve(damped, gradient)
+        step = np.asarray(-np.linalg.solve(damped, gradient), np.float64)
         trial = [_moved(p, v, step[c]) for p, v, c in zip(problems, views, columns, strict=True)]
         trial_cost = sum(map(view_cost, problems, trial))
         if not trial_cost <= cost:  # also where it is not a number

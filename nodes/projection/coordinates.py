@@ -58,7 +58,8 @@ def visibility(
     behind = np.where(drawn, surface.depth[y, x] - mesh.vertices[:, 2], 0)
     unhidden = np.clip(2 - behind / max(depth_tolerance * mesh.interocular, 1e-6), 0, 1)
     turned = np.clip(facing_camera(mesh) / facing, 0, 1)
-    return (inside * unhidden * turned).astype(np.float32)
+    shown: FloatArray = (inside * unhidden * turned).astype(np.float32)
+    return shown
 
 
 def facing_camera(mesh: Mesh) -> FloatArray:
@@ -67,7 +68,7 @@ def facing_camera(mesh: Mesh) -> FloatArray:
     # The camera stands at (0, 0, 1 / nearness); scaled by nearness, infinitely far away is no special case.
     towards = np.array([0, 0, 1]) - nearness * mesh.vertices.astype(np.float64)
     towards /= np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), 1e-9)
-    return np.einsum("vc,vc->v", mesh.normals, towards).astype(np.float32)
+    return np.asarray(np.einsum("vc,vc->v", mesh.normals, towards), np.float32)
 
 
 def mesh_uv(mesh: Mesh) -> FloatArray:

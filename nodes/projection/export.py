@@ -81,8 +81,8 @@ def _visual(trimesh: Any, mesh: Mesh, texture: Texture, *, per_vertex: bool) -> 
 
 
 def _write_obj(trimesh: Any, made: Any, path: Path) -> None:
-    """The OBJ with its material and texture beside it, named after it so that several do not overwrite each other."""
-    made.visual.material.name = path.stem
+    """The OBJ with its material and texture beside it, named after it so that they overwrite no other file."""
+    made.visual.material.name = f"{path.stem}_texture"
     text, files = trimesh.exchange.obj.export_obj(made, return_texture=True, mtl_name=f"{path.stem}.mtl")
     path.write_text(text, encoding="utf-8")
     for name, content in files.items():

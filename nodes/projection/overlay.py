@@ -24,15 +24,14 @@ def mesh(photo: Image, mesh: Mesh, *, strength: Strength = 0.8) -> Image:
     points = mesh.camera.project(mesh.vertices.astype(np.float64))[mesh.triangles]
     a, b = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
     front = (a[:, 1] * b[:, 0] - a[:, 0] * b[:, 1] > 0) & np.isfinite(points).all(axis=(1, 2))
-    canvas = np.ascontiguousarray(photo.pixels)
-    drawn = canvas.copy()
     near = np.clip(points[front], -(2.0**14), 2.0**14)  # OpenCV's fixed-point coordinates end at 2^15
     thickness = max(1, round(max(photo.width, photo.height) / 1200))
     # Antialiased lines exist for bytes only, so a mask is drawn and blended.
-    mask = np.zeros(canvas.shape[:2], np.uint8)
+    mask = np.zeros((photo.height, photo.width), np.uint8)
     cv2.polylines(mask, list(np.round(near * 16).astype(np.int32)), True, 255, thickness, cv2.LINE_AA, shift=4)
     cover = mask[..., None] / np.float32(255) * np.float32(strength)
-    return photo.with_pixels(drawn * (1 - cover) + np.float32(_LINE) * cover)
+    drawn = photo.pixels * (1 - cover) + np.array(_LINE, np.float32) * cover
+    return photo.with_pixels(drawn.astype(np.float32))
 
 
 @node("overlay.normals")

@@ -55,8 +55,7 @@ def unwrap(photo: Image, mesh: Mesh, surface: Surface, *, size: Annotated[int, F
     seen = shown * inside * (chart.triangle >= 0)
     if not (seen > 0).any():
         warn("texture.unwrap: the photo shows nothing of the face; the texture is empty")
-    pixels = cv2.remap(photo.pixels, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    image = Image(np.asarray(pixels, np.float32) * (chart.coverage[..., None] > 0), encoding=photo.encoding)
+    image = Image(_sampled(photo.pixels, places) * (chart.coverage[..., None] > 0), encoding=photo.encoding)
     return Texture(image, seen.astype(np.float32))
 
 
@@ -72,9 +71,7 @@ def project(texture: Texture, photo: Image, mesh: Mesh, surface: Surface) -> Ima
     """
     size = texture.image.width
     at = _texels(coordinates(surface, mesh), size)
-    border = {"borderMode": cv2.BORDER_REPLICATE}
-    colors = np.asarray(cv2.remap(texture.image.pixels, at, None, cv2.INTER_LINEAR, **border), np.float32)
-    seen = np.asarray(cv2.remap(texture.seen, at, None, cv2.INTER_LINEAR, **border), np.float32)
+    colors, seen = _sampled(texture.image.pixels, at), _sampled(texture.seen, at)
     cover = (seen * (surface.coverage > 0))[..., None]
     return photo.with_pixels(photo.pixels * (1 - cover) + colors * cover)
 
@@ -83,10 +80,16 @@ def _chart(mesh: Mesh, size: int) -> tuple[Surface, Mesh]:
     """The mesh laid flat into the texture, and drawn there."""
     at = _texels(mesh_uv(mesh), size)
     flat = np.column_stack([at[:, 0], -at[:, 1], np.zeros(len(at))]).astype(np.float32)
-    normals = np.tile(np.float32([0, 0, 1]), (len(at), 1))
+    normals = np.tile(np.array([0, 0, 1], np.float32), (len(at), 1))
     laid = replace(mesh, vertices=flat, normals=normals, camera=Camera())
     canvas = Image(np.zeros((size, size, 3), np.float32))
     return rasterize(laid, canvas, smoothing=0), laid
+
+
+def _sampled(values: FloatArray, places: FloatArray) -> FloatArray:
+    # With places in one map OpenCV wants None for the other, which its type stubs do not know.
+    sampled = cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+    return np.asarray(sampled, np.float32)
 
 
 def _texels(uv: FloatArray, size: int) -> FloatArray:

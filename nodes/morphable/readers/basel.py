@@ -1,8 +1,8 @@
 """The Basel face model: 2017 (HDF5, Gerig et al. 2018) and 2009 (MATLAB, Paysan et al. 2009). Needs a licence.
 
 2017: groups `shape` and `expression` with `model/mean` (3V,), `model/pcaBasis` (3V, K, orthonormal),
-`model/pcaVariance` (K,), and the triangles in `shape/representer/cells` (3, T). 2009:
-`shapeMU` (3V, 1), `shapePC` (3V, K, orthonormal), `shapeEV` (K, 1, standard deviations), `tl` (T, 3, from 1, clockwise).
+`model/pcaVariance` (K,), and the triangles in `shape/representer/cells` (3, T). 2009: `shapeMU` (3V, 1), `shapePC`
+(3V, K, orthonormal), `shapeEV` (K, 1, standard deviations), `tl` (T, 3, from 1, clockwise).
 """
 
 from __future__ import annotations

@@ -164,4 +164,5 @@ def _read_obj(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32] | No
 def _fan(polygons: NDArray[np.int64]) -> NDArray[np.int64]:
     """Polygons of four corners (or three, the last twice) as triangles."""
     triangles = np.concatenate([polygons[:, [0, 1, 2]], polygons[:, [0, 2, 3]]])
-    return triangles[triangles[:, 1] != triangles[:, 2]]
+    proper: NDArray[np.int64] = triangles[triangles[:, 1] != triangles[:, 2]]
+    return proper
