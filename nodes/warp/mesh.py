@@ -111,9 +111,9 @@ def _carried(
     on_mesh = seen >= 0
     # The weights are those of the point in space, so points in space are what they may mix; only then is it projected.
     places[rows, columns] = reference.camera.project(carried[..., :3]) * on_mesh[..., None]
-    valid[rows, columns] = carried[..., 3] * on_mesh
-    height, width = size
-    valid[(places < -0.5).any(axis=2) | (places[..., 0] > width - 0.5) | (places[..., 1] > height - 0.5)] = 0
+    (height, width), (x, y) = size, (places[rows, columns, 0], places[rows, columns, 1])
+    in_frame = (x >= -0.5) & (x <= width - 0.5) & (y >= -0.5) & (y <= height - 0.5)
+    valid[rows, columns] = carried[..., 3] * (on_mesh & in_frame)
     if masks is not None:
         unseen = np.float32(_UNSEEN)
         valid *= np.minimum((_sampled(masks[1], places) + unseen) / (masks[0] + unseen), 1)
