@@ -24,8 +24,8 @@ from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.face import face as face_mask
 from graphface.nodes.metrics import mean_angle, psnr, si_psnr
 from graphface.nodes.morphable.facemesh import facemesh as build_mesh
-from graphface.nodes.render.scene import DirectionalLight, Scene
 from graphface.nodes.render.irradiance import irradiance
+from graphface.nodes.render.scene import DirectionalLight, Scene
 from graphface.nodes.render.shade import shade
 from graphface.nodes.render.spread import spread
 from graphface.nodes.render.surface import rasterize
@@ -51,9 +51,15 @@ class Relit:
 
 
 def relight_truth(
-    data: Path, out: Path, *, encoding: Encoding = "srgb", method: Method = "additive", shoulder: float = 0.5
+    data: Path,
+    out: Path,
+    *,
+    encoding: Encoding = "srgb",
+    method: Method = "split",
+    shoulder: float = 0.5,
+    source: str = "frontal",
 ) -> Iterator[Relit]:
-    """Relight every head of `data`/truth from `frontal` to the other lights; write `out`/HEAD/LIGHT.png.
+    """Relight every head of `data`/truth from one light to the others; write `out`/HEAD/LIGHT.png.
 
     Args:
         data: the folder that holds `truth`.
@@ -61,6 +67,7 @@ def relight_truth(
         encoding: of the values that albedo and shading live in.
         method: which detail map.
         shoulder: see `blend.recombine`.
+        source: the light of the photo that is relit; the geometry is found in `frontal` whatever it is.
 
     Yields:
         One row for each picture, as it is written.
@@ -72,7 +79,7 @@ def relight_truth(
     if not heads:
         raise UnreadableFile(data / "truth", "holds no heads (folders with a meta.json)")
     for head in heads:
-        yield from _relight_head(head, out / head.name, encoding, method, shoulder)
+        yield from _relight_head(head, out / head.name, encoding, method, shoulder, source)
 
 
 def known_scene(light: dict[str, Any], unit: float = 1.0) -> Scene:
@@ -87,35 +94,37 @@ def known_scene(light: dict[str, Any], unit: float = 1.0) -> Scene:
     return Scene(ambient=ambient, lights=tuple(lights), keep_mean=False, background=1)
 
 
-def _relight_head(head: Path, out: Path, encoding: Encoding, method: Method, shoulder: float) -> Iterator[Relit]:
+def _relight_head(
+    head: Path, out: Path, encoding: Encoding, method: Method, shoulder: float, source: str
+) -> Iterator[Relit]:
     lights = json.loads((head / "meta.json").read_text(encoding="utf-8"))["lights"]
-    source = read_image(head / "frontal.png")
+    frontal, taken = (read_image(head / f"{light}.png") for light in ("frontal", source))
     face_label = (read_image(head / "labels.png").pixels[..., 1] > 0.5).astype(np.float32)
 
-    landmarks = find_landmarks(source)
-    surface = rasterize(build_mesh(landmarks), source)
+    landmarks = find_landmarks(frontal)
+    surface = rasterize(build_mesh(landmarks), frontal)
     normals = surface.normals
     mask = face_mask(surface, landmarks)
-    photo = source if encoding == "srgb" else source.with_pixels(decode_srgb(source.pixels), "linear")
+    photo = taken if encoding == "srgb" else taken.with_pixels(decode_srgb(taken.pixels), "linear")
     intrinsic = intensity(photo)
     estimated = sh.render(sh.fit(intrinsic.shading, normals, mask).light, normals)
     old = spread(estimated, mask, surface, landmarks)
     leftover = getattr(detail, method)(photo, intrinsic.albedo, old)
 
     covered = surface.coverage > 0
-    unit = float(np.average(irradiance(known_scene(lights["frontal"]), normals[covered]), weights=mask[covered]))
+    unit = float(np.average(irradiance(known_scene(lights[source]), normals[covered]), weights=mask[covered]))
     with np.load(head / "aov.npz") as maps:
         true_normals = maps["normal"].astype(np.float32)
     normal_error = mean_angle(normals, true_normals, face_label)
 
     out.mkdir(parents=True, exist_ok=True)
-    for light in LIGHTS:
+    for light in LIGHTS if source == "frontal" else [name for name in ("frontal", *LIGHTS) if name != source]:
         scene = known_scene(lights[light], unit)
         new = spread(shade(normals, scene, estimated, mask, photo), mask, surface, landmarks)
         relit = blend.recombine(photo, intrinsic.albedo, new, leftover, shoulder=shoulder)
-        result = source.with_pixels(relit.pixels if encoding == "srgb" else encode_srgb(relit.pixels))
+        result = taken.with_pixels(relit.pixels if encoding == "srgb" else encode_srgb(relit.pixels))
         write_image(result, out / f"{light}.png")
-        yield _compared(head, light, result, source, face_label, normal_error)
+        yield _compared(head, light, result, taken, face_label, normal_error)
 
 
 def _compared(head: Path, light: str, result: Image, source: Image, mask: Any, normal_error: float) -> Relit:

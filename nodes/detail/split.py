@@ -1,12 +1,15 @@
 """A detail map that is a ratio where the light falls and a difference where it rises.
 
 A dark residual may be a brow, a crease or a cast shadow, a bright one a highlight or a freckle; a single photo does not
-say which. Measured on path-traced heads (scale-invariant PSNR, FaceMesh normals, known lights), what matters is which
-way the light goes, not the frequency band:
+say which. Measured on path-traced heads (scale-invariant PSNR in dB, known lights, no shadows; `graphface bench relight
+OUT --source left45 --method ...`), what matters is which way the light goes, not the frequency band:
 
     source -> target                      additive   ratio   split by band at 0.1   this
     frontal -> six lights                    24.98   25.35                  25.11   25.41
     left45, top, left80_hard -> others       22.49   21.07                  21.49   22.65
+
+With the shipped graph (`graphface bench lights`): heads 26.04, 26.62 and this 26.68 dB; photographs of the Yale set,
+scale-invariant squared error, 0.0146, 0.0126 and this 0.0123.
 
 Where light is taken away everything in the pixel loses it, highlights included, and a difference leaves them glowing:
 the ratio wins. Where light is added the ratio multiplies darkness whose cause is unknown, by factors without bound (the
