@@ -13,6 +13,7 @@ from graphface.nodes.render.skin import skin
 from graphface.nodes.types import DetailMap, Image, Segmentation
 
 SHAPE = (6, 9)
+NOWHERE = np.zeros(SHAPE, np.float32)
 OLD, NEW = np.full(SHAPE, 0.4, np.float32), np.full(SHAPE, 0.8, np.float32)
 
 
@@ -34,7 +35,7 @@ class TestComposite:
     def test_each_label_takes_its_share(self):
         """Face all of the new light, background its mixture, dull hair all, shiny hair what the scene says."""
         scene = Scene(background=0.25, hair=0.5)
-        shine = hair_shine(striped(), thirds(), bright=99)
+        shine = hair_shine(striped(), thirds(), NOWHERE, bright=99)
         mixed = composite(OLD, NEW, scene, thirds(), shine)
         np.testing.assert_allclose(mixed[:, :3], 0.8)
         np.testing.assert_allclose(mixed[:, 6:], 0.5)
@@ -61,12 +62,17 @@ class TestHairShine:
     def test_flat_hair_does_not_shine(self, value):
         """No highlight where all pixels are alike, black and white photos included."""
         flat = Image(np.full((*SHAPE, 3), value, np.float32))
-        assert not hair_shine(flat, thirds()).any()
+        assert not hair_shine(flat, thirds(), NOWHERE).any()
+
+    def test_a_forehead_taken_for_hair_does_not_shine(self):
+        """Where the geometry is sure of the face, the labels are not followed."""
+        assert hair_shine(striped(), thirds(), NOWHERE, bright=99).any()
+        assert not hair_shine(striped(), thirds(), NOWHERE + 1, bright=99).any()
 
     def test_no_hair(self):
         """A bald head has none."""
         labels = Segmentation(np.ones(SHAPE, np.float32), *(np.zeros(SHAPE, np.float32),) * 2)
-        assert not hair_shine(striped(), labels).any()
+        assert not hair_shine(striped(), labels, NOWHERE).any()
 
 
 class TestSkin:
