@@ -46,7 +46,7 @@ def read_exr(path: Path) -> FloatArray:
     try:
         header = _header(data, path)
         planes = _planes(data, header)
-    except (struct.error, zlib.error, ValueError, IndexError, KeyError) as error:
+    except (struct.error, zlib.error, ValueError, IndexError, KeyError, OverflowError) as error:
         raise UnreadableFile(path, f"damaged OpenEXR file ({type(error).__name__}: {error})") from None
     names = ["R", "G", "B"] if "R" in planes else ["Y", "Y", "Y"]
     if any(name not in planes for name in names):
@@ -128,6 +128,8 @@ def _planes(data: bytes, header: _Header) -> dict[str, FloatArray]:
     lines = _LINES[header.compression]
     blocks = -(-header.height // lines)
     for offset in struct.unpack_from(f"<{blocks}Q", data, header.end):
+        if offset > len(data) - 8:
+            raise ValueError(f"a block at byte {offset} of {len(data)}")
         y, size = struct.unpack_from("<iI", data, offset)
         row = y - header.top
         count = min(lines, header.height - row)

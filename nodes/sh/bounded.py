@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from graphface.nodes.sh.harmonics import basis, sphere_points
 
-DIRECTIONS = 200
+DIRECTIONS = 600
 
 
 def nonnegative_coefficients(
@@ -22,7 +22,7 @@ def nonnegative_coefficients(
         coefficients: the unconstrained fit, (n,) or (n, channels). gram: its normal matrix, (n, n).
 
     Returns:
-        Of the same shape. Between the points the light may dip below zero by a few percent of its mean.
+        Of the same shape. Between the points the light may dip below zero by three percent of its mean.
     """
     from scipy.optimize import nnls
 

@@ -55,7 +55,7 @@ def fit(
         ridge: relative weight of the ridge.
         robust: against cast shadows and highlights. "huber" counts large misfits by their size instead of its square;
             "trimmed" fits the share `keep` that fits best (least trimmed squares).
-        nonnegative: no direction may receive negative light; by quadratic programming at 200 directions.
+        nonnegative: no direction may receive negative light; by quadratic programming at 600 directions.
         grey: one light for all channels of a coloured shading.
 
     Returns:
