@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -32,11 +32,12 @@ def gallery(
     graph = load("relight", profiles=profile or ())
     scenes = scene or shipped_scenes()
     kind = graph.type_of(graph.outputs["image"])
-    for given in photo or [None]:
+    photos: list[Path | None] = [*photo] if photo else [None]
+    for given in photos:
         name = "astronaut" if given is None else given.stem
         source = astronaut() if given is None else given
         evaluator = Evaluator(memory=MemoryTier(), threads=os.cpu_count() or 1)
-        cells = []
+        cells: list[tuple[str, Any]] = []
         for path in scenes:
             asked = ["image", "photo", "face.landmarks"]
             found = graph.run(asked, evaluator=evaluator, photo=source, scene=path)
@@ -46,7 +47,7 @@ def gallery(
             cells.append((path.stem, Image.picture(found["image"])[near]))
             write_output(found["image"], kind, folder / f"{name}-{path.stem}.png")
         write_picture(contact_sheet(cells, columns=columns, width=300), folder / f"{name}-sheet.png")
-    print(f"wrote {len(photo or [None]) * len(scenes)} pictures and {len(photo or [None])} sheets to {folder}/")
+    print(f"wrote {len(photos) * len(scenes)} pictures and {len(photos)} sheets to {folder}/")
 
 
 def shipped_scenes() -> list[Path]:

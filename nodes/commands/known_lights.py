@@ -120,7 +120,7 @@ def relight_known(cases: Iterator[Case], out: Path | None, variant: Variant, *, 
             result = decode_srgb(result)
         if out is not None:
             (out / case.subject).mkdir(parents=True, exist_ok=True)
-            write_image(Image(result), out / case.subject / f"{case.light}.png")
+            write_image(Image(np.asarray(result, np.float32)), out / case.subject / f"{case.light}.png")
         yield Figure(
             case.subject,
             case.light,
@@ -187,7 +187,7 @@ def compared(result: FloatArray, truth: FloatArray, mask: FloatArray) -> dict[st
     a, b = result.astype(np.float64), truth.astype(np.float64)
     gain = float((a * b)[inside].sum()) / max(float((a * a)[inside].sum()), 1e-12)
     mse, si_mse = (float(np.square(g * a - b)[inside].mean()) for g in (1.0, gain))
-    similarity = structural_similarity(a, b, data_range=1, channel_axis=2, full=True)[1]
+    similarity = structural_similarity(a, b, data_range=1, channel_axis=2, full=True)[1]  # type: ignore[no-untyped-call]
     return {
         "psnr": -10 * np.log10(max(mse, 1e-12)),
         "si_psnr": -10 * np.log10(max(si_mse, 1e-12)),

@@ -176,8 +176,8 @@ class PointLight(_Casting):
         """Irradiance at `distance` from the lamp relative to that at the middle of the face."""
         core = np.float32(self.core)
         reference = max(float(np.linalg.norm(self.place)), self.core)
-        ratio: NDArray[np.float32] = (np.float32(reference) / np.maximum(distance, core)) ** np.float32(self.falloff)
-        return ratio
+        ratio = (np.float32(reference) / np.maximum(distance, core)) ** np.float32(self.falloff)
+        return np.asarray(ratio, np.float32)
 
 
 class SpotLight(PointLight):

@@ -66,7 +66,7 @@ def shade(
         float32 in the photo's encoding, H x W, or H x W x 3 where the scene (or the estimate) is coloured.
     """
     scale = detail / max(float(mesh.interocular), 1e-3) if mesh is not None else 1.0
-    grid = np.ix_(*(grid_middles(n, scale) for n in normals.shape[:2]))
+    grid = np.ix_(grid_middles(normals.shape[0], scale), grid_middles(normals.shape[1], scale))
     facing = normals[grid]
     covered = has_surface(facing)
     encoded = photo.encoding == "srgb"
@@ -91,9 +91,7 @@ def shade(
     return _changed(estimated, change, normals)
 
 
-def _points(
-    grid: tuple[NDArray[np.intp], NDArray[np.intp]], covered: NDArray[np.bool_], surface: Surface, mesh: Mesh
-) -> FloatArray:
+def _points(grid: tuple[NDArray[np.intp], ...], covered: NDArray[np.bool_], surface: Surface, mesh: Mesh) -> FloatArray:
     """Where the covered points of the grid lie, inter-ocular distances: (n, 3)."""
     down, across = np.nonzero(covered)
     v, u = grid[0].reshape(-1)[down], grid[1].reshape(-1)[across]
@@ -112,7 +110,7 @@ def _changed(estimated: Shading, change: FloatArray, normals: Normals) -> Shadin
     shading = np.maximum(estimated + change, 0)
     covered = normals[..., 2] != 0  # what the camera sees is never quite sideways
     shading *= covered if shading.ndim == 2 else covered[..., None]
-    return shading.astype(np.float32, copy=False)
+    return np.asarray(shading, np.float32)
 
 
 def light_gain(scene: Scene, new: FloatArray, old: FloatArray, weights: FloatArray, floor: float = 0.05) -> float:

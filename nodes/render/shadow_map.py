@@ -68,7 +68,7 @@ def disc(towards: FloatArray, radius: float, count: int) -> FloatArray:
     far = radius * np.sqrt((index + 0.5) / count) if count > 1 else np.zeros(1)
     turn = index * np.pi * (3 - np.sqrt(5.0))
     offsets = (far * np.cos(turn))[:, None] * across + (far * np.sin(turn))[:, None] * np.cross(towards, across)
-    return offsets.astype(np.float32)
+    return np.asarray(offsets, np.float32)
 
 
 class _ShadowMap:
@@ -101,7 +101,7 @@ class _ShadowMap:
         scale = self._resolution / 2 / (self._slope * np.maximum(depth, np.float32(_NEAR)))
         column = seen[:, 0] * scale + np.float32((self._resolution - 1) / 2)
         row = np.float32((self._resolution - 1) / 2) - seen[:, 1] * scale
-        column, row = (np.clip(v, -1, self._resolution).astype(np.float32) for v in (column, row))
+        column, row = (np.asarray(np.clip(v, -1, self._resolution), np.float32) for v in (column, row))
         left, top = np.floor(column), np.floor(row)
         right_share, low_share = column - left, row - top
         padded = np.pad(self._depth, 2, constant_values=np.float32(np.inf))
@@ -110,13 +110,12 @@ class _ShadowMap:
         limit = depth - bias
 
         def passes(step: int) -> FloatArray:
-            return (flat.take(first + step) >= limit).astype(np.float32)
+            return np.asarray(flat.take(first + step) >= limit, np.float32)
 
         upper = passes(0) * (1 - right_share) + passes(1) * right_share
         below = padded.shape[1]
         lower = passes(below) * (1 - right_share) + passes(below + 1) * right_share
-        share: FloatArray = upper * (1 - low_share) + lower * low_share
-        return share
+        return np.asarray(upper * (1 - low_share) + lower * low_share, np.float32)
 
     def _from_light(self, points: FloatArray) -> FloatArray:
         """In the light's own frame: x right, y up, -z ahead."""

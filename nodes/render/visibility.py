@@ -25,7 +25,7 @@ class Shadows:
         """The map of one of `lights` at the picture's size (height, width)."""
         import cv2
 
-        grid = self.visible[self.lights.index(light)]
+        grid: FloatArray = self.visible[self.lights.index(light)]
         if grid.shape == shape:
             return grid
         return np.asarray(cv2.resize(grid, (shape[1], shape[0]), interpolation=cv2.INTER_LINEAR), np.float32)

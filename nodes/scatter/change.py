@@ -41,7 +41,7 @@ def smoothed_change(
     if step.shape[:2] != (height, width):
         step = _channels(np.asarray(cv2.resize(step, (width, height), interpolation=cv2.INTER_LINEAR), np.float32))
     step *= surface.coverage[..., None]
-    result = np.maximum(_channels(shading) + step, 0)
+    result: FloatArray = np.maximum(_channels(shading) + step, 0)
     return result if result.shape[2] > 1 else result[..., 0]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from graphface import node
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.scatter.change import smoothed_change
@@ -29,6 +31,6 @@ def gaussian(
         weight = cv2.GaussianBlur(inside, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
         sums = cv2.GaussianBlur(change * inside[..., None], (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
         floor = weight.clip(1e-4)
-        return sums.reshape(change.shape) / floor[..., None]
+        return np.asarray(sums.reshape(change.shape) / floor[..., None], np.float32)
 
     return smoothed_change(shading, estimated, surface, landmarks, photo, blur)

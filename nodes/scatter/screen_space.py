@@ -62,9 +62,9 @@ def screen_space(
         reached, before = change, 0.0
         for variance, weights in PROFILE:
             # Each Gaussian is reached from the one before it: variances add up.
-            sigma = np.sqrt(variance) / WIDEST * scene.scatter * unit
+            sigma = float(np.sqrt(variance)) / WIDEST * scene.scatter * unit
             if sigma > _NARROWEST:
-                reached = _along(reached, inside, depth, np.sqrt(sigma * sigma - before * before))
+                reached = _along(reached, inside, depth, float(np.sqrt(sigma * sigma - before * before)))
                 before = sigma
             spread += reached * np.asarray(weights, np.float32)
         return spread / np.asarray(np.sum([w for _, w in PROFILE], axis=0), np.float32)
