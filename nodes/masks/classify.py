@@ -16,7 +16,7 @@ from pydantic import Field
 
 from graphface import node, warn
 from graphface.nodes.masks.features import PixelFeatures
-from graphface.nodes.masks.hair import SAMPLES, Hair, skin_mixture, thinned
+from graphface.nodes.masks.hair import Hair, sampled, skin_mixture
 from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.masks.mixture import Mixture, fit_mixture
 from graphface.nodes.masks.prior import BACKDROP, CLOTHES, FACE, HAIR, Layout, layout_of, log_prior
@@ -108,11 +108,10 @@ def _likelihoods(values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_]
     fitted: list[Mixture | None] = [skin_mixture(values, skin, components)]
     for label in (HAIR, BACKDROP, CLOTHES):
         weights = belief[..., label].reshape(-1)
-        chosen = np.flatnonzero(weights > 0.2)
-        chosen = chosen[:: -(-len(chosen) // SAMPLES) or 1]
+        chosen = sampled(weights > 0.2)
         fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components))
     # What a class does not know it is a little open to: a broad Gaussian of the whole window bounds every ratio.
-    broad = fit_mixture(thinned(flat), components=1, floor=0.1)
+    broad = fit_mixture(flat[sampled(np.ones(len(flat), bool))], components=1, floor=0.1)
     if broad is None:
         warn("masks.classify: no pixel has finite features; labels follow from their place alone")
         return np.zeros((*values.shape[:2], 4), np.float32)

@@ -22,7 +22,7 @@ from graphface.nodes.masks.prior import layout_of, log_sum_exp
 from graphface.nodes.types import FloatArray, HeadMasks, Landmarks, Mask
 
 SAMPLES = 2000
-"""Pixels that a mixture is fitted to; taken at even steps."""
+"""Pixels that a mixture is fitted to, about."""
 
 SHINE, SHINE_HUE = 0.07, 1.9
 """A scalp is lighter than the face by more than this share of white, and its hue off by less than this many spreads."""
@@ -62,18 +62,18 @@ def hair(
     import cv2
 
     window, values = features.window, features.values
+    flat = values.reshape(-1, values.shape[2])
     layout = layout_of(landmarks, window)
     conservative, normal, aggressive = (window.shrunk(m) for m in (masks.conservative, masks.normal, masks.aggressive))
     shape = masks.normal.shape
     top = (normal > 0.5) & (layout.outline > 0.05) & (layout.high > EYE_LINE + 0.15)
     skin = skin_mixture(values, (conservative > 0.5) & ~layout.features, components)
-    beside = fit_mixture(thinned(values[(aggressive < 0.5) & (layout.high > CHIN)]), components=components)
+    beside = fit_mixture(flat[sampled((aggressive < 0.5) & (layout.high > CHIN))], components=components)
     rivals = [m for m in (skin, beside) if m is not None]
-    mixture = detector(values[top], skin, rivals, components, margin, least, rounds)
+    mixture = detector(flat[sampled(top)], skin, rivals, components, margin, least, rounds)
     if mixture is None:
         nothing = np.zeros(shape, np.float32)
         return Hair(nothing, nothing)
-    flat = values.reshape(-1, values.shape[2])
     lead = mixture.log_likelihood(flat) - rival_likelihood(flat, rivals)
     found = sigmoid(lead - margin).reshape(values.shape[:2])
     # A line along the silhouette mixes the colours of both sides, and so resembles neither; hair is wider than that.
@@ -92,7 +92,6 @@ def detector(
     rounds: int,
 ) -> Mixture | None:
     """A mixture of the samples (n, D) that neither a rival nor shining skin explains; None where too few are left."""
-    samples = thinned(samples)
     rival = rival_likelihood(samples, rivals)
     mixture = fit_mixture(samples, components=components)
     for _ in range(rounds):
@@ -114,7 +113,7 @@ def skin_mixture(values: FloatArray, where: NDArray[np.bool_], components: int) 
 
     Lightness, the first feature, gets more room: a forehead shines, a neck lies in shadow.
     """
-    samples = thinned(values[where])
+    samples = values.reshape(-1, values.shape[2])[sampled(where)]
     if not len(samples):
         return None
     colors = samples[:, :3]
@@ -149,9 +148,15 @@ def rival_likelihood(samples: FloatArray, rivals: list[Mixture]) -> FloatArray:
     return best
 
 
-def thinned(samples: FloatArray, most: int = SAMPLES) -> FloatArray:
-    """At most about `most` of the samples, at even steps."""
-    return samples[:: max(1, -(-len(samples) // most))]
+def sampled(where: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Flat indices of about `SAMPLES` of the chosen pixels, spread as if at random.
+
+    Whether a pixel is taken depends on its place and hardly on what else is chosen: where noise flips one pixel in or
+    out, the others stay. (Every n-th of the chosen ones would become all others from there on.)
+    """
+    index = np.flatnonzero(where)
+    scrambled = (index.astype(np.uint64) * np.uint64(2654435761)) & np.uint64(0xFFFFFFFF)  # Knuth's multiplicative hash
+    return index[scrambled < SAMPLES / max(len(index), 1) * 2.0**32]
 
 
 def sigmoid(x: FloatArray) -> FloatArray:
