@@ -14,6 +14,9 @@ from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
 SIZE = 0.3
 """Inter-ocular distances: highlights are patches smaller than this, brighter than what is around them."""
 
+KNEE = 0.04
+"""Of the map's unit: what exceeds its surroundings by less is skin tone, not a highlight."""
+
 
 @node("detail.edit.shine")
 def shine(
@@ -26,14 +29,14 @@ def shine(
     """Scale what is brighter than its surroundings: 0 makes the skin matt, 2 makes it oily.
 
     After the "shine" control of Boyadzhiev et al. 2015: positive, low and middle frequencies of the luminance. The
-    change is grey, as the highlight of a dielectric is.
+    change is grey, as the highlight of a dielectric is. Give the face as `where`: a white collar is no highlight.
     """
     unit = max(landmarks.interocular, 1e-3)
 
     def edit(values: FloatArray) -> FloatArray:
         grey = values.mean(axis=2, dtype=np.float32)
         excess = gaussian(grey, 0.02 * unit) - gaussian(grey, SIZE * unit)
-        edited = values + np.float32(strength - 1) * np.maximum(excess, 0)[..., None]
+        edited = values + np.float32(strength - 1) * np.maximum(excess - np.float32(KNEE), 0)[..., None]
         return np.asarray(edited, np.float32)
 
     return detail if strength == 1 else edited_map(detail, edit, where)

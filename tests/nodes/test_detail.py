@@ -129,7 +129,9 @@ class TestEdits:
 
     @pytest.fixture(params=[detail.additive, detail.split])
     def made(self, request, rng):
-        photo = Image(rng.random((40, 50, 3)).astype(np.float32))
+        pixels = rng.random((40, 50, 3)).astype(np.float32) / 2
+        pixels[10:20, 8:18] += 0.5  # a highlight
+        photo = Image(pixels)
         return request.param(photo, intensity(photo).albedo, np.full((40, 50), 0.5, np.float32))
 
     @pytest.mark.parametrize("kernel", ["gaussian", "guided"])
