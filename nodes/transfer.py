@@ -125,8 +125,8 @@ def recoloured(
         reference, albedo: the reference's, warped to the input, and the input's.
         floor: added to both before they are divided. most: largest factor either way.
     """
-    ratio = (albedo + np.float32(floor)) / (np.maximum(reference, 0) + np.float32(floor))
-    ratio = np.clip(ratio, np.float32(1 / most), np.float32(most))
+    quotient = (albedo + np.float32(floor)) / (np.maximum(reference, 0) + np.float32(floor))
+    ratio: FloatArray = np.asarray(np.clip(quotient, 1 / most, most), np.float32)
     pivot = None if detail.pivot is None else detail.pivot * ratio
     return replace(detail, offset=detail.offset * ratio, pivot=pivot)
 

@@ -135,7 +135,7 @@ def _scored(method: str, pairs: list[Path], out: Path, make: Method) -> Scored:
 def _compared(result: FloatArray, truth: FloatArray, label: Mask) -> tuple[float, float]:
     from skimage.metrics import structural_similarity
 
-    shown = np.rint(np.clip(result, 0, 1) * 255) / np.float32(255)
+    shown = np.asarray(np.rint(np.clip(result, 0, 1) * 255) / 255, np.float32)
     maps: Any = structural_similarity(  # type: ignore[no-untyped-call]
         shown.astype(np.float64), truth.astype(np.float64), data_range=1, channel_axis=2, full=True
     )

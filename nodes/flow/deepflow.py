@@ -36,4 +36,4 @@ def deepflow(
 def _flow(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> Any:
     import cv2
 
-    return cv2.optflow.createOptFlow_DeepFlow().calc(one, other, None)
+    return cv2.optflow.createOptFlow_DeepFlow().calc(one, other, None)  # type: ignore[call-overload]

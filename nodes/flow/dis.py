@@ -36,4 +36,4 @@ def dis(
 def _flow(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> Any:
     import cv2
 
-    return cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM).calc(one, other, None)
+    return cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM).calc(one, other, None)  # type: ignore[attr-defined]

@@ -36,4 +36,4 @@ def farneback(
 def _flow(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> Any:
     import cv2
 
-    return cv2.calcOpticalFlowFarneback(one, other, None, 0.5, 4, 25, 5, 7, 1.5, 0)
+    return cv2.calcOpticalFlowFarneback(one, other, None, 0.5, 4, 25, 5, 7, 1.5, 0)  # type: ignore[call-overload]

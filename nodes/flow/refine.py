@@ -133,7 +133,7 @@ def _match(mine: FloatArray, theirs: FloatArray, unit: float) -> FloatArray:
     around = 0.04 * unit
     covariance = _smooth(mine * theirs, around)
     power = np.maximum(_smooth(mine * mine, around) * _smooth(theirs * theirs, around), 0) + np.float32(0.05)
-    return np.clip((covariance / np.sqrt(power) - np.float32(0.3)) * 2, 0, 1)
+    return np.asarray(np.clip((covariance / np.sqrt(power) - np.float32(0.3)) * 2, 0, 1), np.float32)
 
 
 def _improvement(mine: FloatArray, before: FloatArray, after: FloatArray, unit: float) -> FloatArray:
@@ -149,7 +149,7 @@ def _moved(values: FloatArray, flow: FloatArray) -> FloatArray:
 
     y, x = np.mgrid[: flow.shape[0], : flow.shape[1]].astype(np.float32)
     places = np.dstack([x, y]) + flow
-    return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
+    return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)  # type: ignore[call-overload]
 
 
 def _smooth(values: FloatArray, sigma: float) -> FloatArray:

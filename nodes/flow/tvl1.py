@@ -36,4 +36,4 @@ def tvl1(
 def _flow(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> Any:
     import cv2
 
-    return cv2.optflow.DualTVL1OpticalFlow_create().calc(one, other, None)
+    return cv2.optflow.DualTVL1OpticalFlow_create().calc(one, other, None)  # type: ignore[attr-defined]

@@ -47,11 +47,11 @@ def core(
 
     unit = max(landmarks.interocular, 1e-3)
     usable = (correspondence.inside > 0) & (correspondence.known > 0.5) & (skin > 0.5) & (mask > 0)
-    usable = _without_holes(usable, 0.3 * unit).astype(np.uint8)
+    usable = _without_holes(usable, 0.3 * unit)
     if not usable.any():
         warn("makeup.core: no pixel of the input's face has a counterpart in the reference; nothing is painted")
         return np.zeros_like(mask)
-    depth = cv2.distanceTransform(usable, cv2.DIST_L2, 5) - 0.5
+    depth = cv2.distanceTransform(usable.astype(np.uint8), cv2.DIST_L2, 5) - 0.5
     t = np.clip((depth - shrink * unit) / max(softness * unit, 1.0), 0, 1)
     return np.asarray(t * t * (3 - 2 * t), np.float32)
 
@@ -144,10 +144,10 @@ def _continued(
     at[label[known]] = np.stack([x[known], y[known]], axis=1)
     nearest = at[label]
     mirrored = 2 * nearest - np.dstack([x, y])
-    inside = cv2.remap(known.astype(np.float32), mirrored, None, cv2.INTER_LINEAR, borderValue=0)[..., None]
+    inside = cv2.remap(known.astype(np.float32), mirrored, None, cv2.INTER_LINEAR, borderValue=0)[..., None]  # type: ignore[call-overload]
     values = np.where(known[..., None], change, around)
-    reflected = cv2.remap(values, mirrored, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    edge = cv2.remap(values, nearest, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    reflected = cv2.remap(values, mirrored, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+    edge = cv2.remap(values, nearest, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
     reflected = edge + np.clip(inside * 2 - 1, 0, 1) * (reflected - edge)
     near = cv2.GaussianBlur(np.where(known[..., None], change, reflected), (0, 0), max(0.03 * unit, 0.5))
     t = np.clip(distance / ring, 0, 1)[..., None]

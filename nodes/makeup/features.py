@@ -52,7 +52,7 @@ class Features:
         red = np.maximum(features.lips, 0.5 * features.cheeks)
         green = np.maximum(features.lids, 0.5 * features.nose)
         colours = np.stack([np.maximum(c, openings) for c in (red, green, features.brows)], axis=2)
-        return np.rint(np.clip(colours, 0, 1) * 255).astype(np.uint8)
+        return np.asarray(np.rint(np.clip(colours, 0, 1) * 255), np.uint8)
 
 
 @node("makeup.features")

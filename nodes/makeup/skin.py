@@ -44,4 +44,4 @@ def skin(
     deep: FloatArray = np.clip(depth / np.float32(max(rim * unit, 1.0)) - 1, 0, 1)
     parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows, features.nose)
     facial = np.maximum(deep, np.minimum(2 * np.maximum.reduce(parts), 1) * surface.coverage)
-    return np.maximum(labels.face, facial * (1 - labels.hair))
+    return np.asarray(np.maximum(labels.face, facial * (1 - labels.hair)), np.float32)

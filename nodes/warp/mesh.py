@@ -123,7 +123,7 @@ def _carried(
 def _sampled(values: FloatArray, places: FloatArray) -> FloatArray:
     import cv2
 
-    return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
+    return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)  # type: ignore[call-overload]
 
 
 def _window(covered: NDArray[np.bool_]) -> tuple[slice, slice]:
@@ -148,5 +148,4 @@ def _pinned(places: FloatArray, pins: Pins, reach: float) -> FloatArray:
         near = np.exp(-((x - px) ** 2 + (y - py) ** 2) / np.float32(2 * max(reach, 1e-3) ** 2)).astype(np.float32)
         total += near[..., None] * (np.array([rx, ry], np.float32) - at)
         weight += near
-    corrections: FloatArray = total / np.maximum(weight, 1)[..., None]
-    return corrections
+    return np.asarray(total / np.maximum(weight, 1)[..., None], np.float32)

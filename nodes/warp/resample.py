@@ -63,7 +63,7 @@ def fetched(values: FloatArray, correspondence: Correspondence) -> FloatArray:
     def at(positions: FloatArray) -> FloatArray:
         scaled = (positions + np.float32(0.5)) * factor - np.float32(0.5)
         return np.asarray(
-            cv2.remap(np.ascontiguousarray(values), scaled, None, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE),
+            cv2.remap(np.ascontiguousarray(values), scaled, None, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE),  # type: ignore[call-overload]
             np.float32,
         )
 
