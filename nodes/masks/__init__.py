@@ -1,0 +1,12 @@
+"""Face, hair and background of a portrait (paper, section 2, "Face segmentation"), in the order that it happens:
+
+- `head`: where cranium, ears and neck lie, told from the points of the face;
+- `geometric`: three masks from the projected geometry; `face` is the cheap soft mask that needs no more than that;
+- `window`, `features`, `texture`: colour and MR8 responses around the face, at working size;
+- `mixture`: the Gaussian mixtures that are fitted to every photo anew;
+- `hair`: the detector, from the top of this very head;
+- `prior`, `smoothing`, `classify`: labels for every pixel;
+- `override`: what the user gives instead.
+
+The soft edge is `graphface.nodes.matting`; the whole is `graphs/segment.yaml`.
+"""
