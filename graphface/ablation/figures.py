@@ -18,11 +18,10 @@ FAMILY = "metrics"
 
 @dataclass(frozen=True)
 class Metric:
-    """A named comparison; `higher`: more of it is better (the operator's docstring says "higher is better")."""
+    """A named comparison of a result with the truth."""
 
     name: str
     operator: Operator
-    higher: bool
 
 
 def metrics_for(declared: PortType, registry: Registry, asked: Sequence[str] = ()) -> list[Metric]:
@@ -38,7 +37,7 @@ def metrics_for(declared: PortType, registry: Registry, asked: Sequence[str] = (
     for name in registry.names():
         if name.startswith(f"{FAMILY}.") and _fits(operator := registry.operator(name), declared):
             short = name.removeprefix(f"{FAMILY}.")
-            found[short] = Metric(short, operator, "higher is better" in operator.doc.lower())
+            found[short] = Metric(short, operator)
     if not asked:
         return list(found.values())
     chosen = []
