@@ -109,26 +109,25 @@ def detail(
 
 @node("transfer.recoloured")
 def recoloured(
-    detail: DetailMap,
-    reference: Albedo,
-    albedo: Albedo,
-    *,
-    floor: Annotated[float, Field(gt=0, le=1)] = 0.1,
-    most: Annotated[float, Field(ge=1, le=16)] = 3.0,
+    detail: DetailMap, reference: Albedo, albedo: Albedo, *, floor: Annotated[float, Field(gt=0, le=1)] = 0.1
 ) -> DetailMap:
     """The reference's detail on the input's albedo: a wrinkle darkens the skin that it lies in.
 
-    The additive map is rho (s - SH), so its colour is the albedo's; taken as it is, the shadow of a red cheek would
-    leave a green patch on a pale one.
+    The additive map is rho (s - SH), so its colour is the albedo's; taken as it is, the shadow of a red lip would leave
+    a green one on pale skin. What moves is s - SH, the means of both over the channels divided.
 
     Args:
         reference, albedo: the reference's, warped to the input, and the input's.
-        floor: added to both before they are divided. most: largest factor either way.
+        floor: least mean albedo divided by.
     """
-    quotient = (albedo + np.float32(floor)) / (np.maximum(reference, 0) + np.float32(floor))
-    ratio: FloatArray = np.asarray(np.clip(quotient, 1 / most, most), np.float32)
-    pivot = None if detail.pivot is None else detail.pivot * ratio
-    return replace(detail, offset=detail.offset * ratio, pivot=pivot)
+    own, other = (_mean(values) for values in (albedo, reference))
+    pivot = None if detail.pivot is None else detail.pivot * (own / np.maximum(other, np.float32(floor)))
+    grey = _mean(detail.offset) / np.maximum(other, np.float32(floor))
+    return replace(detail, offset=albedo * grey, pivot=pivot)
+
+
+def _mean(values: FloatArray) -> FloatArray:
+    return values.mean(axis=2, keepdims=True, dtype=np.float32)
 
 
 def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float | None, finest: float) -> FloatArray:

@@ -108,18 +108,24 @@ class TestDetail:
 
 class TestRecoloured:
     def test_equal_albedo(self, rng):
-        """On skin of the same colour detail stays as it is."""
-        offset, rho = (rng.random((4, 4, 3), np.float32) for _ in range(2))
-        np.testing.assert_allclose(recoloured(DetailMap(offset), rho, rho).offset, offset, rtol=1e-5)
+        """On skin of the same colour, a map that is rho (s - SH) stays as it is."""
+        rho, light = rng.random((4, 4, 3), np.float32) + 0.5, rng.standard_normal((4, 4, 1), np.float32)
+        np.testing.assert_allclose(recoloured(DetailMap(rho * light), rho, rho).offset, rho * light, rtol=1e-4)
+
+    def test_takes_the_inputs_colour(self):
+        """The shadow of red lips on grey skin is grey."""
+        red, skin = (np.full((2, 2, 3), c, np.float32) for c in ((2.6, 0.2, 0.2), (1.0, 1.0, 1.0)))
+        got = recoloured(DetailMap(-0.3 * red), red, skin).offset
+        np.testing.assert_allclose(got, -0.3, rtol=1e-5)
 
     @settings(max_examples=50, deadline=None)
-    @given(own=st.floats(0, 1e4, width=32), other=st.floats(0, 1e4, width=32))
-    def test_bounded(self, own, other):
-        """No colour is divided by zero, none is multiplied by more than 3."""
+    @given(own=st.floats(0, 1e3, width=32), other=st.floats(0, 1e3, width=32))
+    def test_black_is_not_divided_by(self, own, other):
+        """Black albedos give finite detail, bounded by the floor."""
         ones = np.ones((1, 1, 3), np.float32)
         got = recoloured(DetailMap(ones), ones * np.float32(other), ones * np.float32(own)).offset
-        assert (got >= 1 / 3.01).all()
-        assert (got <= 3.01).all()
+        assert np.isfinite(got).all()
+        assert (np.abs(got) <= 10.01 * own + 1e-6).all()
 
 
 @pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")
