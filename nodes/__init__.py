@@ -41,7 +41,8 @@ pack = Pack(
         "warp": "graphface.nodes.warp.mesh graphface.nodes.warp.resample",
         "flow": " ".join(f"graphface.nodes.flow.{m}" for m in ("none", "dis", "farneback", "deepflow", "tvl1")),
         "makeup": " ".join(
-            f"graphface.nodes.makeup.{stage}" for stage in ("features", "tone", "detail", "skin", "coverage", "boundary")
+            f"graphface.nodes.makeup.{stage}"
+            for stage in ("features", "tone", "detail", "skin", "coverage", "boundary")
         ),
         "blend": "graphface.nodes.blend "
         + " ".join(f"graphface.nodes.blending.{method}" for method in ("linear", "multiband", "poisson")),

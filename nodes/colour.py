@@ -20,7 +20,7 @@ _BLOCK = 1 << 15
 
 
 def encode_srgb(linear: FloatArray) -> FloatArray:
-    """Linear light to sRGB, float32 of the same shape; encode(-x) = -encode(x), values above 1 follow the same curve."""
+    """Linear light to sRGB, float32 of the same shape; odd about 0, and values above 1 follow the same curve."""
     return _blockwise(_encode, linear)
 
 

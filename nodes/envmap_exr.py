@@ -11,6 +11,7 @@ import struct
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -110,8 +111,8 @@ def _header(data: bytes, path: Path) -> _Header:
     return _Header(_channels(found["channels"]), compression, left, top, width, height, place + 1)
 
 
-def _channels(listed: bytes) -> list[tuple[str, np.dtype[np.generic]]]:
-    channels: list[tuple[str, np.dtype[np.generic]]] = []
+def _channels(listed: bytes) -> list[tuple[str, np.dtype[Any]]]:
+    channels: list[tuple[str, np.dtype[Any]]] = []
     place = 0
     while listed[place]:
         name, place = _word(listed, place)

@@ -78,7 +78,7 @@ def lights(
             raise UsageError(f"unknown variant {name!r}{did_you_mean(nearest_names(name, known))}")
     kind, digits = ("si_psnr", 2) if truth == "heads" else ("si_mse", 4)
     headers: tuple[str, ...] = ()
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for name in asked:
         cases = truth_cases(data) if truth == "heads" else yale_cases(data, every)
         folder = None if out is None else (out if len(asked) == 1 else out / name)
@@ -293,7 +293,7 @@ def transfer(
     inputs, others = ([Path(f) for f in read_map(f"photos={where}")[1]] for where in (photos, references))
     if table is not None:
         write_picture(transfer_table(inputs, others, graph=graph), table)
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for found in criteria(inputs, others):
         if not isinstance(found, Criteria):
             rows.append((*found, "", "", "", ""))

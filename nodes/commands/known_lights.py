@@ -158,7 +158,8 @@ def yale_cases(data: Path, every: int = 1) -> Iterator[Case]:
     for person in people:
         pixels = read_image(person / f"{person.name}_P00{_FRONTAL}.png").pixels
         sides = (_BORDER,) * 4
-        photo = Image(cv2.copyMakeBorder(pixels, *sides, cv2.BORDER_REPLICATE), encoding="linear")
+        padded = np.asarray(cv2.copyMakeBorder(pixels, *sides, cv2.BORDER_REPLICATE), np.float32)
+        photo = Image(padded, encoding="linear")
         for light in YALE_LIGHTS:
             path = person / f"{person.name}_P00{light}.png"
             if not path.exists():

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from graphface.nodes.types import FloatArray
 
@@ -33,7 +36,7 @@ def lifted(small: FloatArray, guide: FloatArray, full_guide: FloatArray, *, radi
     if small.shape == full_guide.shape:
         return small
 
-    def box(x: FloatArray) -> FloatArray:
+    def box(x: NDArray[np.floating[Any]]) -> FloatArray:
         return np.asarray(cv2.blur(x, (2 * radius + 1,) * 2, borderType=cv2.BORDER_REPLICATE), np.float32)
 
     mean, mean_guide = box(small), box(guide)

@@ -40,7 +40,8 @@ class Lattice:
         self._spread = self._read.T.tocsr()
         ahead = [radix.sum() - (d + 1) * radix[axis] for axis in range(d)] + [radix.sum()]
         self._neighbours = [(_lookup(corners, corners + a), _lookup(corners, corners - a)) for a in ahead]
-        self._norm: FloatArray = np.float32(1) / np.maximum(self._filter(np.ones((n, 1), np.float32)), _LEAST_WEIGHT)
+        weight = self._filter(np.ones((n, 1), np.float32))
+        self._norm = np.asarray(1 / np.maximum(weight, _LEAST_WEIGHT), np.float32)
 
     def filter(self, values: FloatArray) -> FloatArray:
         """Gaussian-weighted means of values (n, k) over all points, each point's own value included."""

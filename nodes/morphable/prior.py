@@ -85,7 +85,7 @@ def fit_mixture(samples: NDArray[np.float64], *, most: int = 6, ridge: float = 0
         for form in ("full", "tied", "diag", "spherical")
         for count in range(1, min(most, max(1, len(samples) // 10)) + 1)
     ]
-    best = min(tried, key=lambda mixture: float(mixture.bic(samples)))
+    best = min(tried, key=lambda mixture: float(mixture.bic(samples)))  # type: ignore[no-untyped-call]
     size = samples.shape[1]
     covariances = {
         "full": lambda: best.covariances_,

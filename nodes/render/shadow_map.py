@@ -99,9 +99,9 @@ class _ShadowMap:
         seen = self._from_light(points)
         depth = -seen[:, 2]
         scale = self._resolution / 2 / (self._slope * np.maximum(depth, np.float32(_NEAR)))
-        column = seen[:, 0] * scale + np.float32((self._resolution - 1) / 2)
-        row = np.float32((self._resolution - 1) / 2) - seen[:, 1] * scale
-        column, row = (np.asarray(np.clip(v, -1, self._resolution), np.float32) for v in (column, row))
+        middle = np.float32((self._resolution - 1) / 2)
+        texels = (middle + seen[:, 0] * scale, middle - seen[:, 1] * scale)
+        column, row = (np.asarray(np.clip(v, -1, self._resolution), np.float32) for v in texels)
         left, top = np.floor(column), np.floor(row)
         right_share, low_share = column - left, row - top
         padded = np.pad(self._depth, 2, constant_values=np.float32(np.inf))

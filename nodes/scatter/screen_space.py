@@ -67,7 +67,7 @@ def screen_space(
                 reached = _along(reached, inside, depth, float(np.sqrt(sigma * sigma - before * before)))
                 before = sigma
             spread += reached * np.asarray(weights, np.float32)
-        return spread / np.asarray(np.sum([w for _, w in PROFILE], axis=0), np.float32)
+        return np.asarray(spread / np.sum([w for _, w in PROFILE], axis=0), np.float32)
 
     return smoothed_change(shading, estimated, surface, landmarks, photo, blur)
 

@@ -159,8 +159,7 @@ def _solve(
     total = max(float(weights.sum()), 1e-12)
     penalty = np.full(len(gram), ridge * total)
     penalty[0] = 1e-12 * total
-    solved: NDArray[np.float64] = np.linalg.solve(gram + np.diag(penalty), weighted.T @ values)
-    return solved
+    return np.asarray(np.linalg.solve(gram + np.diag(penalty), weighted.T @ values), np.float64)
 
 
 def _reweighted(

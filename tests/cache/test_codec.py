@@ -9,7 +9,6 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 import pytest
-from graphface.nodes.types import Image, Intrinsic, Lighting, LightingFit, Mask
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -19,6 +18,7 @@ from pydantic import BaseModel
 from graphface import ArrayType
 from graphface.cache.codec import CodecError, decode, encode
 from graphface.cache.digest import digest_value
+from graphface.nodes.types import Image, Intrinsic, Lighting, LightingFit, Mask
 
 plain = st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.binary() | st.complex_numbers()
 arrays = hnp.arrays(hnp.scalar_dtypes(), hnp.array_shapes(min_dims=0, min_side=0, max_side=4))

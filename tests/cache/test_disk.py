@@ -14,7 +14,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from graphface.nodes.types import Image
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -22,6 +21,7 @@ from graphface import UsageError
 from graphface.cache import disk as disk_module
 from graphface.cache.disk import MARK, DiskTier
 from graphface.cache.memory import MISSING
+from graphface.nodes.types import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
 import writer
