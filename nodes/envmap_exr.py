@@ -22,7 +22,7 @@ from graphface.nodes.types import FloatArray
 _MAGIC = b"\x76\x2f\x31\x01"
 _LINES = {0: 1, 1: 1, 2: 1, 3: 16}
 """Scan lines in a block by compression: none, RLE, ZIPS, ZIP."""
-_DTYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
+_DTYPES: dict[int, np.dtype[Any]] = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 _MOST_PIXELS = 1 << 28
 
 

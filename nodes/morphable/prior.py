@@ -85,14 +85,15 @@ def fit_mixture(samples: NDArray[np.float64], *, most: int = 6, ridge: float = 0
         for form in ("full", "tied", "diag", "spherical")
         for count in range(1, min(most, max(1, len(samples) // 10)) + 1)
     ]
-    best = min(tried, key=lambda mixture: float(mixture.bic(samples)))  # type: ignore[no-untyped-call]
+    best = min(tried, key=lambda mixture: float(mixture.bic(samples)))
     size = samples.shape[1]
-    covariances = {
+    full: dict[str, Callable[[], NDArray[np.float64]]] = {
         "full": lambda: best.covariances_,
         "tied": lambda: np.repeat(best.covariances_[None], best.n_components, axis=0),
         "diag": lambda: np.stack([np.diag(v) for v in best.covariances_]),
         "spherical": lambda: best.covariances_[:, None, None] * np.eye(size),
-    }[best.covariance_type]()
+    }
+    covariances = full[best.covariance_type]()
     return Mixture(best.weights_.astype(np.float32), best.means_.astype(np.float32), covariances.astype(np.float32))
 
 
