@@ -193,6 +193,9 @@ def _collect(annotation: Any, atoms: list[Atom]) -> bool:
         return _collect(annotation.__origin__, atoms)
     if origin in (typing.Union, types.UnionType):
         return any([_collect(a, atoms) for a in typing.get_args(annotation)])  # noqa: C419 - visits every alternative
+    if origin is typing.Literal:
+        atoms.extend(type(choice) for choice in typing.get_args(annotation) if choice is not None)
+        return None in typing.get_args(annotation)
     if origin is list:
         atoms.append(ListOf(port_type(typing.get_args(annotation)[0])))
         return False

@@ -1,7 +1,7 @@
 """Port types: what may travel along a wire, and what may be plugged into what."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import pytest
@@ -44,6 +44,9 @@ class TestReading:
             (Lazy[Coarse], "Coarse | None"),
             (NDArray[np.float32], "ndarray"),
             (dict[str, int], "dict"),
+            (Literal["srgb", "linear"], "str"),
+            (Literal["largest"] | int, "str | int"),
+            (Literal[1, None], "int | None"),
         ],
     )
     def test_annotation(self, annotation: object, text: str) -> None:

@@ -7,6 +7,7 @@ that lowers the quadratic lowers the prior.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
