@@ -36,22 +36,33 @@ def _wanted(scene: Scene) -> Needs:
     return {
         "labels": scene.background != 1 or "the scene lights the background like the face (background: 1)",
         "shine": scene.hair != 0 or "the scene lights hair like the face (hair: 0)",
+        "own": scene.background != 1 or "without labels all is lit like the face (background: 1)",
     }
 
 
 @node("render.composite", needs=_wanted)
 def composite(
-    estimated: Shading, relit: Shading, scene: Scene, labels: Lazy[Segmentation] = None, shine: Lazy[Mask] = None
+    estimated: Shading,
+    relit: Shading,
+    scene: Scene,
+    labels: Lazy[Segmentation] = None,
+    shine: Lazy[Mask] = None,
+    own: Lazy[Shading] = None,
 ) -> Shading:
     """The face takes the new shading, hair the old one at its bright pixels, the background a constant mixture.
 
     Hair looks like hair by its highlights, and those are no matter of the face's light. The blend is by soft labels, so
     that it is as smooth as they are.
 
+    Beside the skin a pixel darker than the estimated light says is dark by itself (brown hair, a navy suit): intensity
+    as shading has put its darkness into `own`, and all its colour into the albedo. Light added as on skin would make it
+    glow in that colour, so there added light counts in proportion to `own` over `estimated`: as in the ratio.
+
     Args:
         estimated, relit: shading of the whole picture under the photo's own and the new light; H x W or H x W x 3.
         scene: `scene.hair` is kept of the old shading at the brightest hair, `scene.background` is the new one's share.
         labels, shine: without them all counts as face.
+        own: the photo's own shading, H x W; without it added light counts in full everywhere.
 
     Returns:
         estimated + share * (relit - estimated), float32, the more channels of the two.
@@ -67,5 +78,16 @@ def composite(
     if relit.ndim == 3:
         kept = kept[..., None]
         estimated = estimated if estimated.ndim == 3 else estimated[..., None]
-    mixed: Shading = relit + kept * (estimated - relit)
+    change = (1 - kept) * (relit - estimated)
+    if labels is not None and own is not None:
+        dark = _share_of(own, estimated, 1 - labels.face)
+        change = np.where(change > 0, change * (dark[..., None] if change.ndim == 3 else dark), change)
+    mixed: Shading = estimated + change
     return mixed
+
+
+def _share_of(own: Shading, estimated: Shading, where: Mask, floor: float = 0.02) -> Shading:
+    """own / estimated, at most 1, where `where` is 1; 1 where it is 0."""
+    grey = estimated.mean(axis=2) if estimated.ndim == 3 else estimated
+    share = np.clip(own / np.maximum(grey, np.float32(floor)), 0, 1)
+    return np.asarray(1 - where * (1 - share), np.float32)

@@ -52,6 +52,17 @@ class TestComposite:
         new = np.repeat(NEW[..., None], 3, axis=2)
         assert composite(OLD, new, Scene(background=0.5), thirds()).shape == (*SHAPE, 3)
 
+    def test_dark_hair_does_not_glow(self):
+        """Light added to hair half as bright as the light says is half as much: the ratio; on skin it counts in full."""
+        mixed = composite(OLD, NEW, Scene(background=1, hair=0), thirds(), None, OLD / 2)
+        np.testing.assert_allclose(mixed[:, :3], 0.8)
+        np.testing.assert_allclose(mixed[:, 3:6], 0.6)
+
+    def test_dark_hair_loses_light_like_all_else(self):
+        """Only added light is held back."""
+        mixed = composite(NEW, OLD, Scene(background=1, hair=0), thirds(), None, OLD / 2)
+        np.testing.assert_allclose(mixed, 0.4)
+
     def test_without_labels_all_is_face(self):
         """Nothing to blend."""
         assert composite(OLD, NEW, Scene(background=1, hair=0)) is NEW
