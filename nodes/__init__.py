@@ -80,6 +80,7 @@ pack = Pack(
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
         "Correspondence": "graphface.nodes.warp.correspondence:Correspondence",
         "Features": "graphface.nodes.makeup.features:Features",
+        "Judgements": "graphface.nodes.metrics.judgements:Judgements",
         "Pins": "graphface.nodes.warp.correspondence:Pins",
         "Environment": "graphface.nodes.envmap:Environment",
         "Regions": "graphface.nodes.regions:Regions",

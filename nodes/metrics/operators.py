@@ -5,9 +5,14 @@ The same functions as in `pictures` and `geometry`; pictures of either encoding 
 
 from __future__ import annotations
 
+from typing import Annotated
+
+from pydantic import Field
+
 from graphface import node
 from graphface.nodes import metrics
 from graphface.nodes.colour import decode_srgb, encode_srgb
+from graphface.nodes.metrics.judgements import Judgements
 from graphface.nodes.types import Albedo, Direction, FloatArray, Image, Landmarks, Mask, Normals, Shading
 
 Comparable = Image | Albedo | Shading
@@ -53,6 +58,12 @@ def si_mse(result: Comparable, truth: Comparable, mask: Mask | None = None) -> f
 def lmse(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
     """Local mean squared error (Grosse et al. 2009); lower is better."""
     return metrics.lmse(*_arrays(result, truth), mask)
+
+
+@node("metrics.whdr")
+def whdr(albedo: Albedo, judgements: Judgements, *, delta: Annotated[float, Field(gt=0, le=1)] = 0.1) -> float:
+    """Weighted human disagreement rate (Bell, Bala, Snavely 2014), 0 to 1; lower is better."""
+    return metrics.whdr(albedo, judgements.pairs, delta=delta)
 
 
 @node("metrics.normal_angle")

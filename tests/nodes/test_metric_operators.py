@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
+from typing import ClassVar
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+import graphface
 from graphface.nodes import metrics
 from graphface.nodes.metrics import operators
+from graphface.nodes.metrics.judgements import Judgements
 from graphface.nodes.types import Image, Landmarks
 
 HIGHER = {metrics.psnr: 120, metrics.si_psnr: 120, metrics.ssim: 1, metrics.ms_ssim: 1}
@@ -101,6 +106,40 @@ class TestWhdr:
         """Without any there is no rate."""
         with pytest.raises(ValueError, match="no judgement"):
             metrics.whdr(np.ones((2, 2, 3), np.float32), [])
+
+
+class TestJudgements:
+    STORED: ClassVar[dict[str, object]] = {
+        "intrinsic_points": [{"id": 7, "x": 0.1, "y": 0.5}, {"id": 8, "x": 0.9, "y": 0.5}],
+        "intrinsic_comparisons": [
+            {"point1": 7, "point2": 8, "darker": "1", "darker_score": 0.75},
+            {"point1": 7, "point2": 8, "darker": "E", "darker_score": 0.25},
+            {"point1": 7, "point2": 8, "darker": None, "darker_score": None},
+        ],
+    }
+
+    def test_read_and_measured_in_a_graph(self, tmp_path):
+        """The form of Intrinsic Images in the Wild; what people did not settle has no say."""
+        (tmp_path / "judged.json").write_text(json.dumps(self.STORED))
+        albedo = np.ones((2, 2, 3), np.float32)
+        albedo[:, 0] = 0.5
+        graph = graphface.load(
+            {
+                "graphface": 1,
+                "inputs": {"albedo": "Albedo", "said": "Judgements"},
+                "nodes": {"rate": {"use": "metrics.whdr", "in": {"albedo": "albedo", "judgements": "said"}}},
+                "outputs": {"rate": "rate"},
+            }
+        )
+        assert graph.run(albedo=albedo, said=tmp_path / "judged.json")["rate"] == pytest.approx(0.25)
+
+    @pytest.mark.parametrize("text", ["", "[]", "{}", '{"intrinsic_points": 3, "intrinsic_comparisons": []}'])
+    def test_another_file(self, tmp_path, text):
+        """What has not that form is refused by name."""
+        path = tmp_path / "other.json"
+        path.write_text(text)
+        with pytest.raises(graphface.UnreadableFile, match=r"other\.json"):
+            Judgements.from_file(path)
 
 
 class TestOperators:
