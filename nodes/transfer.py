@@ -114,7 +114,8 @@ def recoloured(
     """The reference's detail on the input's albedo: a wrinkle darkens the skin that it lies in.
 
     The additive map is rho (s - SH), so its colour is the albedo's; taken as it is, the shadow of a red lip would leave
-    a green one on pale skin. What moves is s - SH, the means of both over the channels divided.
+    a green one on pale skin. s - SH is read off the means of both over the channels, and what the two albedos differ by
+    is moved along with it: equal albedos leave the map as it is, to the last bit, also where the floor is at work.
 
     Args:
         reference, albedo: the reference's, warped to the input, and the input's.
@@ -123,7 +124,7 @@ def recoloured(
     own, other = (_mean(values) for values in (albedo, reference))
     pivot = None if detail.pivot is None else detail.pivot * (own / np.maximum(other, np.float32(floor)))
     grey = _mean(detail.offset) / np.maximum(other, np.float32(floor))
-    return replace(detail, offset=albedo * grey, pivot=pivot)
+    return replace(detail, offset=detail.offset + (albedo - reference) * grey, pivot=pivot)
 
 
 def _mean(values: FloatArray) -> FloatArray:

@@ -112,6 +112,11 @@ class TestRecoloured:
         rho, light = rng.random((4, 4, 3), np.float32) + 0.5, rng.standard_normal((4, 4, 1), np.float32)
         np.testing.assert_allclose(recoloured(DetailMap(rho * light), rho, rho).offset, rho * light, rtol=1e-4)
 
+    def test_equal_albedo_darker_than_the_floor(self, rng):
+        """On skin of the same colour any map stays as it is to the last bit, however dark the albedo."""
+        rho, offset = (rng.random((4, 4, 3), np.float32) * np.float32(0.1) for _ in range(2))
+        np.testing.assert_array_equal(recoloured(DetailMap(offset), rho, rho).offset, offset)
+
     def test_takes_the_inputs_colour(self):
         """The shadow of red lips on grey skin is grey."""
         red, skin = (np.full((2, 2, 3), c, np.float32) for c in ((2.6, 0.2, 0.2), (1.0, 1.0, 1.0)))
@@ -121,11 +126,11 @@ class TestRecoloured:
     @settings(max_examples=50, deadline=None)
     @given(own=st.floats(0, 1e3, width=32), other=st.floats(0, 1e3, width=32))
     def test_black_is_not_divided_by(self, own, other):
-        """Black albedos give finite detail, bounded by the floor."""
+        """Black albedos give finite detail: the floor bounds what is added."""
         ones = np.ones((1, 1, 3), np.float32)
         got = recoloured(DetailMap(ones), ones * np.float32(other), ones * np.float32(own)).offset
         assert np.isfinite(got).all()
-        assert (np.abs(got) <= 10.01 * own + 1e-6).all()
+        assert (np.abs(got) <= 1 + 10.01 * abs(own - other)).all()
 
 
 @pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")
