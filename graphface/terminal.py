@@ -66,14 +66,17 @@ class ProgressBar(Observer):
 
 
 def print_times(records: Sequence[Record], title: str = "") -> None:
-    """Time per node, slowest first, with its share."""
-    ran = sorted((r for r in records if r.state == "ran"), key=lambda r: -r.seconds)
-    total = sum(r.seconds for r in ran) or 1.0
-    table = _table("node", "operator", ">ms", ">share", title=title)
-    for record in ran:
-        share = f"{record.seconds / total:.0%}"
-        table.add_row(record.name, record.operator, f"{record.seconds * 1e3:.1f}", share)
-    table.add_row("sum", "", f"{total * 1e3:.1f}", "", style="bold")
+    """Time by node, slowest first, with its share; over several runs the sum, and how often it ran."""
+    spent: dict[tuple[str, str], list[float]] = {}
+    for record in records:
+        if record.state == "ran":
+            spent.setdefault((record.name, record.operator), []).append(record.seconds)
+    total = sum(sum(seconds) for seconds in spent.values()) or 1.0
+    table = _table("node", "operator", ">ran", ">ms", ">share", title=title)
+    for (name, operator), seconds in sorted(spent.items(), key=lambda entry: -sum(entry[1])):
+        share = f"{sum(seconds) / total:.0%}"
+        table.add_row(name, operator, str(len(seconds)), f"{sum(seconds) * 1e3:.1f}", share)
+    table.add_row("sum", "", "", f"{total * 1e3:.1f}", "", style="bold")
     _console().print(table)
 
 
