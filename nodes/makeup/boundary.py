@@ -25,6 +25,9 @@ _FLOOR = 0.05
 _MOST = 2.0
 """Largest magnitude of the factor's logarithm."""
 
+_STRIP = 1 << 15
+"""Values worked on at a time, few enough for the processor's cache."""
+
 
 @node("makeup.core")
 def core(
@@ -51,9 +54,14 @@ def core(
     if not usable.any():
         warn("makeup.core: no pixel of the input's face has a counterpart in the reference; nothing is painted")
         return np.zeros_like(mask)
-    depth = cv2.distanceTransform(usable.astype(np.uint8), cv2.DIST_L2, 5) - 0.5
+    rows, columns = np.flatnonzero(usable.any(axis=1)), np.flatnonzero(usable.any(axis=0))
+    # One pixel more all around, so that the depth is known; at the picture's edge the face is only cut off.
+    window = tuple(slice(max(0, n[0] - 1), n[-1] + 2) for n in (rows, columns))
+    depth = cv2.distanceTransform(usable[window].astype(np.uint8), cv2.DIST_L2, 5) - 0.5
     t = np.clip((depth - shrink * unit) / max(softness * unit, 1.0), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), np.float32)
+    inside = np.zeros(mask.shape, np.float32)
+    inside[window] = t * t * (3 - 2 * t)
+    return inside
 
 
 def _without_holes(usable: NDArray[np.bool_], width: float) -> NDArray[np.bool_]:
@@ -109,9 +117,15 @@ def boundary(
     continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
     factor = np.asarray(cv2.resize(np.exp(continued), core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
     # What shines more than skin does is no skin colour: it moves with the skin, and is not multiplied.
-    matte = np.minimum(photo.pixels, np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32))
-    beyond = photo.pixels + _limited((matte + np.float32(_FLOOR)) * (factor - 1), photo.pixels)
-    return photo.with_pixels(beyond + core[..., None] * (painted.pixels - beyond))
+    matte = np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32)
+    pixels = np.empty_like(photo.pixels)
+    step = max(1, _STRIP // max(1, 3 * photo.width))
+    for rows in (slice(top, top + step) for top in range(0, photo.height, step)):
+        before = photo.pixels[rows]
+        change = (np.minimum(before, matte) + np.float32(_FLOOR)) * (factor[rows] - 1)
+        beyond = before + _limited(change, before)
+        pixels[rows] = beyond + core[rows, :, None] * (painted.pixels[rows] - beyond)
+    return photo.with_pixels(pixels)
 
 
 def _limited(change: FloatArray, pixels: FloatArray) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphface import node
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
@@ -47,23 +48,24 @@ def fetched(values: FloatArray, correspondence: Correspondence) -> FloatArray:
     """
     import cv2
 
-    rows, columns = _window(correspondence)
+    rows, columns = _box(correspondence.inside > 0)
     places = correspondence.places[rows, columns]
     out = np.zeros((*correspondence.inside.shape, *values.shape[2:]), np.float32)
     if places.size == 0:
         return out
     shrink = _magnification(places, correspondence.inside[rows, columns])
+    factor = None
     if shrink > _LARGEST_CONDITION:
         height, width = (max(1, round(n / shrink)) for n in values.shape[:2])
         factor = np.array([width / values.shape[1], height / values.shape[0]], np.float32)
         values = np.asarray(cv2.resize(values, (width, height), interpolation=cv2.INTER_AREA), np.float32)
-    else:
-        factor = np.ones(2, np.float32)
+    values = np.ascontiguousarray(values)
 
     def at(positions: FloatArray) -> FloatArray:
-        scaled = (positions + np.float32(0.5)) * factor - np.float32(0.5)
+        if factor is not None:
+            positions = (positions + np.float32(0.5)) * factor - np.float32(0.5)
         return np.asarray(
-            cv2.remap(np.ascontiguousarray(values), scaled, None, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE),  # type: ignore[call-overload]
+            cv2.remap(values, positions, None, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE),  # type: ignore[call-overload]
             np.float32,
         )
 
@@ -71,25 +73,30 @@ def fetched(values: FloatArray, correspondence: Correspondence) -> FloatArray:
     if correspondence.mirrored is not None and correspondence.mirrored_valid is not None:
         other = correspondence.mirrored_valid[rows, columns]
         if other.any():
-            share = other / np.maximum(other + correspondence.valid[rows, columns], 1e-6)
+            part = _box(other > 0)
+            share = other[part] / np.maximum(other[part] + correspondence.valid[rows, columns][part], 1e-6)
             share = share.reshape(*share.shape, *[1] * (values.ndim - 2))
-            window = window + share * (at(correspondence.mirrored[rows, columns]) - window)
+            window[part] += share * (at(correspondence.mirrored[rows, columns][part]) - window[part])
     out[rows, columns] = window
     return out
 
 
-def _window(correspondence: Correspondence) -> tuple[slice, slice]:
-    rows = np.flatnonzero(correspondence.inside.any(axis=1))
-    columns = np.flatnonzero(correspondence.inside.any(axis=0))
+def _box(covered: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """The bounding box of what is covered."""
+    rows, columns = np.flatnonzero(covered.any(axis=1)), np.flatnonzero(covered.any(axis=0))
     if rows.size == 0:
         return slice(0, 0), slice(0, 0)
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
 def _magnification(places: FloatArray, inside: FloatArray) -> float:
-    """Median number of reference pixels that one step in the input crosses, over the face."""
-    both = (inside[1:, 1:] > 0) & (inside[:-1, :-1] > 0)
+    """Median number of reference pixels that one step in the input crosses, over the face.
+
+    Of a big picture every fourth pixel is asked: it is one number for the whole face.
+    """
+    sparse = (slice(None, None, 4 if min(inside.shape) > 64 else 1),) * 2
+    both = (inside[1:, 1:][sparse] > 0) & (inside[:-1, :-1][sparse] > 0)
     if not both.any():
         return 1.0
-    along = places[1:, 1:] - places[:-1, :-1]
+    along = places[1:, 1:][sparse] - places[:-1, :-1][sparse]
     return float(np.median(np.hypot(along[..., 0], along[..., 1])[both])) / float(np.sqrt(2))
