@@ -61,12 +61,16 @@ def lights(
     variant: Annotated[list[str] | None, typer.Option(help="By name; `all` for every one.")] = None,
     every: Annotated[int, typer.Option(min=1, help="Take every n-th person of the Yale set.")] = 1,
 ) -> None:
-    """Relight by known lights with the shipped graph and parts of it changed: what each effect gains and costs."""
+    """Relight by known lights with the shipped graph and parts of it changed: what each effect gains and costs.
+
+    With a folder and several variants, a contact sheet of each head or person beside the truth is written too.
+    """
     from statistics import median
 
     from graphface import UsageError
     from graphface.errors import did_you_mean, nearest_names
     from graphface.nodes.commands.known_lights import VARIANTS, relight_known, truth_cases, yale_cases
+    from graphface.nodes.commands.variant_sheet import variant_sheets
     from graphface.terminal import print_table
 
     if truth not in ("heads", "yale"):
@@ -91,6 +95,9 @@ def lights(
         took = f"{median(f.milliseconds for f in found):.0f}"
         rows.append(_lights_row(name, [(f.light, f.measured) for f in found], names, kind, digits, took))
     print_table(headers, rows)
+    if out is not None and len(asked) > 1:
+        sheets = variant_sheets(out, asked, data, truth)
+        print(f"wrote {len(sheets)} contact sheets, {out}/sheet-SUBJECT.png")
 
 
 @app.command()
