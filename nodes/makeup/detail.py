@@ -26,7 +26,7 @@ def keep(
     features: Features,
     *,
     nose: Share = 1.0,
-    lids: Share = 0.6,
+    lids: Share = 1.0,
     lips: Share = 0.6,
     around: Share = 0.8,
     brows: Share = 0.0,
