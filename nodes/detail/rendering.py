@@ -9,7 +9,20 @@ from graphface.nodes.types import Albedo, DetailMap, FloatArray, Shading
 
 def rendering(albedo: Albedo, shading: Shading) -> FloatArray:
     """rho(x) s(x), H x W x 3, for a grey (H x W) or coloured (H x W x 3) shading."""
-    return albedo * (shading if shading.ndim == 3 else shading[..., None])
+    if shading.ndim == 3:
+        return albedo * shading
+    rendered = in_three_channels(shading)
+    rendered *= albedo
+    return rendered
+
+
+def in_three_channels(values: FloatArray) -> FloatArray:
+    """H x W to H x W x 3, a new array; several times faster to multiply by than broadcasting to so short an axis."""
+    import cv2
+
+    if values.dtype != np.float32 or values.size == 0:
+        return np.repeat(values[..., None], 3, axis=2)
+    return np.asarray(cv2.cvtColor(values, cv2.COLOR_GRAY2RGB))
 
 
 def applied(detail: DetailMap, rendered: FloatArray) -> FloatArray:
@@ -17,10 +30,12 @@ def applied(detail: DetailMap, rendered: FloatArray) -> FloatArray:
     if detail.gain is None:
         return rendered + detail.offset
     if detail.pivot is None:
-        return detail.gain * rendered + detail.offset
-    below = np.minimum(rendered, detail.pivot)
-    picture: FloatArray = detail.gain * below
-    picture += rendered
-    picture -= below
+        picture = detail.gain * rendered
+    else:
+        # gain * min(rendering, pivot) + max(rendering - pivot, 0)
+        below = np.minimum(rendered, detail.pivot)
+        picture = rendered - below
+        below *= detail.gain
+        picture += below
     picture += detail.offset
     return picture

@@ -8,8 +8,10 @@ import numpy as np
 from pydantic import Field
 
 from graphface import Lazy, Needs, node
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.scene import Scene
-from graphface.nodes.types import Image, Mask, Segmentation, Shading
+from graphface.nodes.strips import by_strips
+from graphface.nodes.types import FloatArray, Image, Mask, Segmentation, Shading
 
 Percent = Annotated[float, Field(ge=0, le=100)]
 
@@ -69,25 +71,48 @@ def composite(
     """
     if labels is None and shine is None:
         return relit
-    kept = np.zeros(estimated.shape[:2], np.float32)
-    if labels is not None:
-        kept += np.float32(1 - scene.background) * labels.background
-    if shine is not None:
-        kept += np.float32(scene.hair) * shine
-    np.minimum(kept, 1, out=kept)
-    if relit.ndim == 3:
-        kept = kept[..., None]
-        estimated = estimated if estimated.ndim == 3 else estimated[..., None]
-    change = (1 - kept) * (relit - estimated)
-    if labels is not None and own is not None:
-        dark = _share_of(own, estimated, 1 - labels.face)
-        change = np.where(change > 0, change * (dark[..., None] if change.ndim == 3 else dark), change)
-    mixed: Shading = estimated + change
+    mixed = np.empty(estimated.shape if estimated.ndim > relit.ndim else relit.shape, np.float32)
+
+    def strip(rows: slice) -> None:
+        before = _like(estimated[rows], mixed)
+        change = _like(relit[rows], mixed) - before
+        change *= _like(_new_share(scene, labels, shine, rows), mixed)
+        if labels is not None and own is not None:
+            dark = _share_of(own[rows], estimated[rows], 1 - labels.face[rows])
+            # Only what is added: max(change, 0) * dark + min(change, 0)
+            less = np.minimum(change, 0)
+            np.maximum(change, 0, out=change)
+            change *= _like(dark, mixed)
+            change += less
+        np.add(before, change, out=mixed[rows])
+
+    by_strips(strip, mixed.shape)
     return mixed
+
+
+def _like(values: FloatArray, mixed: Shading) -> FloatArray:
+    """A grey map in three channels where the result has them."""
+    return in_three_channels(values) if values.ndim < mixed.ndim else values
+
+
+def _new_share(scene: Scene, labels: Segmentation | None, shine: Mask | None, rows: slice) -> FloatArray:
+    """How much of the new light each pixel takes, H x W."""
+    kept = np.zeros(0, np.float32)
+    if labels is not None:
+        kept = np.float32(1 - scene.background) * labels.background[rows]
+    if shine is not None:
+        shining = np.float32(scene.hair) * shine[rows]
+        kept = kept + shining if labels is not None else shining
+    np.minimum(kept, 1, out=kept)
+    return np.subtract(1, kept, out=kept)
 
 
 def _share_of(own: Shading, estimated: Shading, where: Mask, floor: float = 0.02) -> Shading:
     """own / estimated, at most 1, where `where` is 1; 1 where it is 0."""
     grey = estimated.mean(axis=2) if estimated.ndim == 3 else estimated
-    share = np.clip(own / np.maximum(grey, np.float32(floor)), 0, 1)
-    return np.asarray(1 - where * (1 - share), np.float32)
+    share = own / np.maximum(grey, np.float32(floor))
+    np.clip(share, 0, 1, out=share)
+    share -= 1
+    share *= where
+    share += 1
+    return share

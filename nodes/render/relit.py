@@ -11,6 +11,7 @@ from graphface import Lazy, Needs, UsageError, node
 from graphface.nodes.blend import recombine
 from graphface.nodes.colour import decode_srgb, encode_srgb
 from graphface.nodes.render.scene import Scene
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, Image, Shading
 
 
@@ -49,5 +50,15 @@ def relit(
         return image
     if photo.encoding == "linear":
         return image.with_pixels(image.pixels + highlights)
-    brighter = encode_srgb(decode_srgb(image.pixels) + highlights)
-    return image.with_pixels(np.where(highlights > 0, np.minimum(brighter, np.maximum(image.pixels, 1)), image.pixels))
+    pixels = np.empty_like(image.pixels)
+
+    def strip(rows: slice) -> None:
+        part, light = image.pixels[rows], highlights[rows]
+        if light.any():
+            # At most white, or as bright as it was; where no light is added encoding may not even round.
+            brighter = np.minimum(encode_srgb(decode_srgb(part) + light), np.maximum(part, 1))
+            part = np.where(light > 0, brighter, part)
+        pixels[rows] = part
+
+    by_strips(strip, pixels.shape)
+    return image.with_pixels(pixels)

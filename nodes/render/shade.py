@@ -10,11 +10,13 @@ from pydantic import Field
 
 from graphface import Lazy, Needs, node
 from graphface.nodes.colour import decode_srgb, encode_srgb
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.places import grid_middles, lifted_pixels
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.sh import has_surface
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Image, Lighting, Mask, Mesh, Normals, Shading, Surface
 
 
@@ -66,21 +68,24 @@ def shade(
         float32 in the photo's encoding, H x W, or H x W x 3 where the scene (or the estimate) is coloured.
     """
     scale = detail / max(float(mesh.interocular), 1e-3) if mesh is not None else 1.0
-    grid = np.ix_(grid_middles(normals.shape[0], scale), grid_middles(normals.shape[1], scale))
-    facing = normals[grid]
+    height, width = normals.shape[:2]
+    v, u = grid_middles(height, scale), grid_middles(width, scale)
+    places = v[:, None] * width + u  # of the grid's points in the flat picture
+    facing = normals.reshape(-1, 3).take(places, axis=0)
     covered = has_surface(facing)
+    facing, places = facing[covered], places[covered]
     encoded = photo.encoding == "srgb"
-    before = estimated[grid][covered].astype(np.float32, copy=False)
+    before = estimated.reshape(height * width, *estimated.shape[2:]).take(places, axis=0).astype(np.float32, copy=False)
     old = np.maximum(decode_srgb(before) if encoded else before, 0)
-    points = None if mesh is None or surface is None or not scene.local else _points(grid, covered, surface, mesh)
+    points = None if mesh is None or surface is None or not scene.local else _points(places, surface, mesh)
     visible = {} if shadows is None else {n: shadows.of(n, covered.shape)[covered] for n in shadows.lights}
-    new = irradiance(scene, facing[covered], points, visible, panorama)
+    new = irradiance(scene, facing, points, visible, panorama)
     if new.ndim < old.ndim:
         new = new[:, None]
     elif old.ndim < new.ndim:
         old, before = old[:, None], before[:, None]
 
-    gain = light_gain(scene, new, old, mask[grid][covered], floor)
+    gain = light_gain(scene, new, old, mask.reshape(-1).take(places), floor)
     if scene.mode == "add":
         linear = old + gain * new
     else:
@@ -91,11 +96,11 @@ def shade(
     return _changed(estimated, change, normals)
 
 
-def _points(grid: tuple[NDArray[np.intp], ...], covered: NDArray[np.bool_], surface: Surface, mesh: Mesh) -> FloatArray:
-    """Where the covered points of the grid lie, inter-ocular distances: (n, 3)."""
-    down, across = np.nonzero(covered)
-    v, u = grid[0].reshape(-1)[down], grid[1].reshape(-1)[across]
-    return lifted_pixels(u, v, surface.depth[v, u], mesh.camera) / np.float32(max(mesh.interocular, 1e-3))
+def _points(places: NDArray[np.intp], surface: Surface, mesh: Mesh) -> FloatArray:
+    """Where points of the flat picture lie in space, inter-ocular distances: (n, 3)."""
+    v, u = np.divmod(places, surface.depth.shape[1])
+    points = lifted_pixels(u, v, surface.depth.reshape(-1).take(places), mesh.camera)
+    return points / np.float32(max(mesh.interocular, 1e-3))
 
 
 def _changed(estimated: Shading, change: FloatArray, normals: Normals) -> Shading:
@@ -105,12 +110,21 @@ def _changed(estimated: Shading, change: FloatArray, normals: Normals) -> Shadin
     height, width = estimated.shape[:2]
     if change.shape[:2] != (height, width):
         change = np.asarray(cv2.resize(change, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
-    if change.ndim > estimated.ndim:
-        estimated = estimated[..., None]
-    shading = np.maximum(estimated + change, 0)
-    covered = normals[..., 2] != 0  # what the camera sees is never quite sideways
-    shading *= covered if shading.ndim == 2 else covered[..., None]
-    return np.asarray(shading, np.float32)
+    shading = np.empty(change.shape if change.ndim > estimated.ndim else estimated.shape, np.float32)
+
+    def strip(rows: slice) -> None:
+        covered = (normals[rows, :, 2] != 0).astype(np.float32)  # what the camera sees is never quite sideways
+        part = _like(estimated[rows], shading) + _like(change[rows], shading)
+        np.maximum(part, 0, out=part)
+        np.multiply(part, _like(covered, shading), out=shading[rows])
+
+    by_strips(strip, shading.shape)
+    return shading
+
+
+def _like(values: FloatArray, shading: Shading) -> FloatArray:
+    """A grey map in three channels where the shading has them."""
+    return in_three_channels(values) if values.ndim < shading.ndim else values
 
 
 def light_gain(scene: Scene, new: FloatArray, old: FloatArray, weights: FloatArray, floor: float = 0.05) -> float:
@@ -125,6 +139,9 @@ def _mean(irradiances: FloatArray, weights: FloatArray) -> float:
     """Mean over the mask; over all pixels where the mask is empty; 0 where there are none."""
     if irradiances.size == 0:
         return 0.0
-    grey = irradiances.reshape(len(irradiances), -1).mean(axis=1, dtype=np.float64)
+    grey = irradiances if irradiances.shape == weights.shape else irradiances.mean(axis=1, dtype=np.float64)
     total = float(weights.sum(dtype=np.float64))
-    return float(grey @ weights / total) if total > 1e-6 else float(grey.mean())
+    if total <= 1e-6:
+        return float(grey.mean(dtype=np.float64))
+    # Not `@`: on busy cores the threads of a matrix product wait for each other, for milliseconds.
+    return float((grey * weights).sum(dtype=np.float64)) / total

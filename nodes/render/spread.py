@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.scene import Scene
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Landmarks, Mask, Shading, Surface
 
 Length = Annotated[float, Field(gt=0, le=10)]
@@ -55,8 +57,9 @@ def spread(
         warn("render.spread: the mask is empty; the shading is taken as 0 everywhere, so no light changes the picture")
         return np.zeros_like(shading)
     extra = [1] * (shading.ndim - 2)
-    weight, small_weight = (w.reshape(*w.shape, *extra) for w in (weight, small_weight))
-    small = (_shrunk(weight * shading, scale) / np.maximum(small_weight, 1e-12)).astype(np.float32, copy=False)
+    small_weight = small_weight.reshape(*small_weight.shape, *extra)
+    weighted = _like(weight, shading) * shading
+    small = (_shrunk(weighted, scale) / np.maximum(small_weight, 1e-12)).astype(np.float32, copy=False)
     nearest, distance = _nearest(small, core)
     blur = max(smoothing * landmarks.interocular * scale, 0.5)
     near, far = (
@@ -65,7 +68,18 @@ def spread(
     )
     t = _smooth_step(distance / (4 * blur)).reshape(*distance.shape, *extra)
     beyond = _enlarged(near + (far - near) * t, mask.shape)
-    return beyond + weight * (shading - beyond)
+
+    def join(rows: slice) -> None:
+        inside = shading[rows] - beyond[rows]
+        inside *= _like(weight[rows], shading)
+        beyond[rows] += inside
+
+    by_strips(join, beyond.shape)
+    return beyond
+
+
+def _like(weight: Mask, shading: Shading) -> FloatArray:
+    return in_three_channels(weight) if shading.ndim == 3 else weight
 
 
 @node("render.background")
