@@ -42,7 +42,7 @@ pack = Pack(
         "flow": " ".join(f"graphface.nodes.flow.{m}" for m in ("none", "dis", "farneback", "deepflow", "tvl1")),
         "makeup": " ".join(
             f"graphface.nodes.makeup.{stage}"
-            for stage in ("features", "tone", "detail", "skin", "coverage", "boundary")
+            for stage in ("features", "tone", "detail", "skin", "uncovered", "coverage", "boundary")
         ),
         "blend": "graphface.nodes.blend "
         + " ".join(f"graphface.nodes.blending.{method}" for method in ("linear", "multiband", "poisson")),

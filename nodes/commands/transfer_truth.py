@@ -89,7 +89,7 @@ Method = Callable[[Path, Path], tuple[Image, float]]
 def _runs(graph: Graph, evaluator: Evaluator) -> Method:
     """The graph's image; what each photo gives alone is computed beforehand, so that only the transfer is timed."""
     alone = [f"pair/{f}.{n}" for f in ("face", "other") for n in ("labels", "spread", "mask")]
-    alone += ["pair/face_skin", "pair/other_skin", "pair/face_detail", "pair/other_detail"]
+    alone += [f"pair/{f}_{n}" for f in ("face", "other") for n in ("bare", "detail")]
 
     def run(photo: Path, reference: Path) -> tuple[Image, float]:
         graph.run(alone, evaluator=evaluator, photo=photo, reference=reference)

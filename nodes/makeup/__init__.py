@@ -1,6 +1,6 @@
 """Makeup transfer (paper, section "Makeup Transfer"), a stage a file, in the order in which the graph runs them.
 
 `features` where eyes, lips, nose ... are; `albedo` and `shading` the reference's paint under the input's light;
-`detail` the blended detail map; `skin` and `coverage` where paint may go and how strongly; `boundary` the way from
-the painted face to neck, ears and hairline.
+`detail` the blended detail map; `skin` and `coverage` where paint may go and how strongly, `uncovered` what of it no
+strand of hair hides; `boundary` the way from the painted face to neck, ears and hairline.
 """
