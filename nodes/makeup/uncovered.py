@@ -40,7 +40,7 @@ def uncovered(
     """The skin without the hair in front of it.
 
     Colours of hair (near the face) and skin (nose, cheeks) are a Gaussian each; what is likelier hair and goes on into
-    labelled hair is no skin. Eyes, brows and lips are left alone.
+    labelled hair is no skin. Eyes, lids, brows and lips are left alone.
 
     Args:
         skin: of `makeup.skin`. photo, labels, features, landmarks: of the same picture.
@@ -63,8 +63,9 @@ def uncovered(
 
     pixels = cv2.GaussianBlur(small(photo.pixels), (0, 0), max(0.03 * unit, 0.5))
     hair, bare = small(labels.hair) > 0.8, small(skin) > 0.9
-    openings = np.maximum.reduce((features.eyes, features.mouth, features.lips))
-    special = (small(openings) > 0.2) | (small(np.maximum(features.lids, features.brows)) > 0.6)
+    # Eye shadow may have the hair's colour and reach it.
+    special = small(np.maximum.reduce((features.eyes, features.mouth, features.lips, features.lids))) > 0.2
+    special |= small(features.brows) > 0.6
     sure = bare & ~special & (small(np.maximum(features.nose, features.cheeks)) > 0.5)
     near = hair & (cv2.distanceTransform((~bare).astype(np.uint8), cv2.DIST_L2, 3) < 0.8 * unit)
     if min(sure.sum(), near.sum()) < _LEAST_PIXELS:
