@@ -98,7 +98,8 @@ def _shouldered(
     excess = np.subtract(within, picture, out=picture)  # -e
     if not excess.any():
         return within
-    room = np.asarray(cv2.threshold(excess, 0, 1, cv2.THRESH_BINARY_INV)[1], np.float32)  # 1 upwards, 0 downwards
+    upwards = cv2.threshold(excess, 0, 1, cv2.THRESH_BINARY_INV)[1]  # 1, or 0 downwards
+    room = np.asarray(upwards, np.float32)
     room *= np.float32(shoulder) * (white - black)
     if black.any():
         room += np.float32(shoulder) * black

@@ -1,8 +1,8 @@
 """Pictures worked on a few rows at a time, by several threads.
 
-Arithmetic on whole pictures waits for memory: each operation reads and writes tens of megabytes. A strip and a dozen
-temporaries of its size stay in the processor's cache, which alone makes it twice as fast, and NumPy and OpenCV let other
-threads run meanwhile.
+Arithmetic on whole pictures waits for memory: each operation reads and writes tens of megabytes. A strip and several
+temporaries of its size stay in the processor's cache, which alone makes it twice as fast, and NumPy and OpenCV let
+other threads run meanwhile.
 """
 
 from __future__ import annotations
