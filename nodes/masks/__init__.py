@@ -4,6 +4,7 @@
 - `geometric`: three masks from the projected geometry; `face` is the cheap soft mask that needs no more than that;
 - `window`, `features`, `texture`: colour and MR8 responses around the face, at working size;
 - `mixture`: the Gaussian mixtures that are fitted to every photo anew;
+- `bare`: skin that goes on from the forehead, above the mesh;
 - `hair`: the detector, from the top of this very head;
 - `prior`, `smoothing`, `classify`: labels for every pixel;
 - `override`: what the user gives instead.

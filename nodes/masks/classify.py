@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.masks.bare import bare_skin
 from graphface.nodes.masks.features import PixelFeatures
 from graphface.nodes.masks.hair import Hair, sampled, skin_mixture
 from graphface.nodes.masks.head import CHIN, EYE_LINE
@@ -26,6 +27,9 @@ from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segme
 Scores = FloatArray
 """h x w x 4, in the order FACE, HAIR, BACKDROP, CLOTHES."""
 
+STEPS = 12
+"""Of expectation maximization: a mixture stopped half-way moves more with the noise of the photo."""
+
 OPENNESS = 0.02
 """Share of any class that may look like anything."""
 
@@ -34,6 +38,9 @@ UNKNOWN = -1.0
 
 STRIP = 0.06
 """Width of the thinnest hair that can carry more hair, in inter-ocular distances."""
+
+BARE = 6.0
+"""Added to the score of face, and taken off the score of hair, where the forehead surely goes on."""
 
 NO_HAIR = 6.0
 """Taken off the score of hair everywhere where the detector found none."""
@@ -71,12 +78,16 @@ def classify(
     layout = layout_of(landmarks, window)
     pixels = window.shrunk(photo.pixels)
     sure = window.shrunk(masks.conservative) > 0.5
+    bare = bare_skin(features.values, sure & ~layout.features, layout, landmarks.interocular * window.scale)
+    skin = (sure & ~layout.features) | (bare > 0.5)
     expected = prior * log_prior(layout)
+    expected[..., FACE] += BARE * bare
+    expected[..., HAIR] -= BARE * bare
     belief = _seeds(sure, window.shrunk(masks.aggressive), window.shrunk(hair.response), layout)
     if not belief[..., HAIR].any():
         expected[..., HAIR] -= NO_HAIR
     for _ in range(rounds):
-        scores = expected + evidence * _likelihoods(values, belief, sure & ~layout.features, components)
+        scores = expected + evidence * _likelihoods(values, belief, skin, components)
         scores[sure] = _certain(FACE)
         belief = smoothed(scores, pixels, method=smoothing)
         belief[sure] = np.eye(4, dtype=np.float32)[FACE]
@@ -109,7 +120,7 @@ def _likelihoods(values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_]
     for label in (HAIR, BACKDROP, CLOTHES):
         weights = belief[..., label].reshape(-1)
         chosen = sampled(weights > 0.2)
-        fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components))
+        fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components, rounds=STEPS))
     # What a class does not know it is a little open to: a broad Gaussian of the whole window bounds every ratio.
     broad = fit_mixture(flat[sampled(np.ones(len(flat), bool))], components=1, floor=0.1)
     if broad is None:

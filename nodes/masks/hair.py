@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.masks.bare import bare_skin
 from graphface.nodes.masks.features import PixelFeatures
 from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.masks.mixture import Mixture, fit_mixture
@@ -67,15 +68,18 @@ def hair(
     conservative, normal, aggressive = (window.shrunk(m) for m in (masks.conservative, masks.normal, masks.aggressive))
     shape = masks.normal.shape
     top = (normal > 0.5) & (layout.outline > 0.05) & (layout.high > EYE_LINE + 0.15)
-    skin = skin_mixture(values, (conservative > 0.5) & ~layout.features, components)
+    sure = (conservative > 0.5) & ~layout.features
+    bare = bare_skin(values, sure, layout, landmarks.interocular * window.scale)
+    skin = skin_mixture(values, sure, components)
     beside = fit_mixture(flat[sampled((aggressive < 0.5) & (layout.high > CHIN))], components=components)
     rivals = [m for m in (skin, beside) if m is not None]
-    mixture = detector(flat[sampled(top)], skin, rivals, components, margin, least, rounds)
+    chosen = sampled(top)
+    mixture = detector(flat[chosen], 1 - bare.reshape(-1)[chosen], skin, rivals, components, margin, least, rounds)
     if mixture is None:
         nothing = np.zeros(shape, np.float32)
         return Hair(nothing, nothing)
     lead = mixture.log_likelihood(flat) - rival_likelihood(flat, rivals)
-    found = sigmoid(lead - margin).reshape(values.shape[:2])
+    found = sigmoid(lead - margin).reshape(values.shape[:2]) * (1 - bare)
     # A line along the silhouette mixes the colours of both sides, and so resembles neither; hair is wider than that.
     found = np.asarray(cv2.morphologyEx(found, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)), np.float32)
     response = window.enlarged(found, shape, beyond=0)
@@ -84,6 +88,7 @@ def hair(
 
 def detector(
     samples: FloatArray,
+    covered: FloatArray,
     skin: Mixture | None,
     rivals: list[Mixture],
     components: int,
@@ -91,15 +96,18 @@ def detector(
     least: float,
     rounds: int,
 ) -> Mixture | None:
-    """A mixture of the samples (n, D) that neither a rival nor shining skin explains; None where too few are left."""
+    """A mixture of the samples (n, D) that neither a rival nor shining skin explains; None where too few are left.
+
+    `covered` (n,) is how surely each sample is no bare skin.
+    """
     rival = rival_likelihood(samples, rivals)
-    mixture = fit_mixture(samples, components=components)
+    mixture = fit_mixture(samples, covered, components=components)
     for _ in range(rounds):
         if mixture is None:
             return None
         joint = mixture.joint(samples)
         total = log_sum_exp(joint)
-        weights = sigmoid(total[:, 0] - rival - margin)
+        weights = covered * sigmoid(total[:, 0] - rival - margin)
         if skin is not None:
             weights *= 1 - np.exp(joint - total)[:, shiny(mixture, skin)].sum(axis=1)
         if weights.mean() < least:
