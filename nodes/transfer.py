@@ -122,13 +122,14 @@ def recoloured(
         floor: least mean albedo divided by.
     """
     own, other = (_mean(values) for values in (albedo, reference))
-    pivot = None if detail.pivot is None else detail.pivot * (own / np.maximum(other, np.float32(floor)))
-    grey = _mean(detail.offset) / np.maximum(other, np.float32(floor))
-    return replace(detail, offset=detail.offset + (albedo - reference) * grey, pivot=pivot)
+    least = np.maximum(other, np.float32(floor))
+    pivot = None if detail.pivot is None else np.asarray(detail.pivot * (own / least), np.float32)
+    offset = np.asarray(detail.offset + (albedo - reference) * (_mean(detail.offset) / least), np.float32)
+    return replace(detail, offset=offset, pivot=pivot)
 
 
 def _mean(values: FloatArray) -> FloatArray:
-    return values.mean(axis=2, keepdims=True, dtype=np.float32)
+    return np.asarray(values.mean(axis=2, keepdims=True, dtype=np.float32))
 
 
 def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float | None, finest: float) -> FloatArray:

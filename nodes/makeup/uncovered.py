@@ -61,7 +61,7 @@ def uncovered(
     def small(values: FloatArray) -> FloatArray:
         return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
 
-    pixels = cv2.GaussianBlur(small(photo.pixels), (0, 0), max(0.03 * unit, 0.5))
+    pixels = np.asarray(cv2.GaussianBlur(small(photo.pixels), (0, 0), max(0.03 * unit, 0.5)), np.float32)
     hair, bare = small(labels.hair) > 0.8, small(skin) > 0.9
     # Eye shadow may have the hair's colour and reach it.
     special = small(np.maximum.reduce((features.eyes, features.mouth, features.lips, features.lids))) > 0.2
@@ -111,4 +111,4 @@ def _connected(wanted: NDArray[np.bool_], seed: NDArray[np.bool_]) -> NDArray[np
     _, label = cv2.connectedComponents((wanted | seed).astype(np.uint8), connectivity=4)
     touched = np.zeros(int(label.max()) + 1, bool)
     touched[label[seed]] = True
-    return wanted & touched[label]
+    return np.asarray(wanted & touched[label])

@@ -59,7 +59,8 @@ def bare_skin(values: FloatArray, skin: NDArray[np.bool_], layout: Layout, unit:
     if np.count_nonzero(forehead) < LEAST:
         return np.zeros(skin.shape, np.float32)
     step = 1 / max(unit, 1.0)
-    price = step * _price(cv2.GaussianBlur(values[..., :3], (0, 0), max(0.025 * unit, 0.5)), skin, forehead, step)
+    colors = np.asarray(cv2.GaussianBlur(values[..., :3], (0, 0), max(0.025 * unit, 0.5)), np.float32)
+    price = step * _price(colors, skin, forehead, step)
     way = np.where(forehead, 0, 1e3).astype(np.float32)
     for _ in range(min(128, round(REACH * unit))):
         way = np.minimum(way, np.asarray(cv2.erode(way, np.ones((3, 3), np.uint8))) + price)

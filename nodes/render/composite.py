@@ -110,7 +110,7 @@ def _new_share(scene: Scene, labels: Segmentation | None, shine: Mask | None, ro
 def _share_of(own: Shading, estimated: Shading, where: Mask, floor: float = 0.02) -> Shading:
     """own / estimated, at most 1, where `where` is 1; 1 where it is 0."""
     grey = estimated.mean(axis=2) if estimated.ndim == 3 else estimated
-    share = own / np.maximum(grey, np.float32(floor))
+    share = np.asarray(own / np.maximum(grey, np.float32(floor)), np.float32)
     np.clip(share, 0, 1, out=share)
     share -= 1
     share *= where

@@ -53,7 +53,7 @@ class TestComposite:
         assert composite(OLD, new, Scene(background=0.5), thirds()).shape == (*SHAPE, 3)
 
     def test_dark_hair_does_not_glow(self):
-        """Light added to hair half as bright as the light says is half as much: the ratio; on skin it counts in full."""
+        """Light added to hair half as bright as the light says is half as much (the ratio); on skin it is all there."""
         mixed = composite(OLD, NEW, Scene(background=1, hair=0), thirds(), None, OLD / 2)
         np.testing.assert_allclose(mixed[:, :3], 0.8)
         np.testing.assert_allclose(mixed[:, 3:6], 0.6)
