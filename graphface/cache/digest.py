@@ -26,9 +26,10 @@ import numpy as np
 
 from graphface.errors import UnreadableFile, UsageError
 
-_xxh3: Any
 try:
-    from xxhash import xxh3_128 as _xxh3
+    import xxhash
+
+    _xxh3: Any = xxhash.xxh3_128
 except ImportError:  # the `fast` extra is not installed
     _xxh3 = None
 
