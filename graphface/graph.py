@@ -19,11 +19,13 @@ from typing import TYPE_CHECKING, Any
 
 from graphface.cache.keys import KeyTable
 from graphface.cache.memory import MemoryTier
-from graphface.compose import GRAPH_SUFFIXES, Choices, Composition, compose, find_graph
+from graphface.compose import Choices, compose
 from graphface.document import Document, parse_document, read_document
 from graphface.effective import escaped
 from graphface.errors import DocumentError, InputError, UsageError, nearest_names
 from graphface.evaluate import Evaluator, Result
+from graphface.flat import Composition
+from graphface.graph_files import GRAPH_SUFFIXES, find_graph
 from graphface.inputs import Bound, bind, missing_inputs
 from graphface.located import Source
 from graphface.needs import declined_now

@@ -16,9 +16,9 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from graphface.compose import Composition, FlatNode, FlatWire
 from graphface.document import InputEntry, Setting
 from graphface.errors import DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
+from graphface.flat import Composition, FlatNode, FlatWire
 from graphface.located import Place
 from graphface.node import InputPort, Operator
 from graphface.references import Target

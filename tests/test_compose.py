@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from graphface import DocumentError, Graph, Registry, UnreadableFile, load
-from graphface.compose import read_flag
 from graphface.errors import Problem
+from graphface.flags import read_flag
 
 Write = Callable[..., Path]
 

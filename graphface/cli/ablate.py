@@ -47,9 +47,9 @@ def ablate(
     from graphface.ablation.table import as_csv, as_markdown, columns, rows, shown
     from graphface.cache.memory import MemoryTier
     from graphface.cli.options import load_graph
-    from graphface.compose import read_flag
     from graphface.errors import UnwritableFile
     from graphface.evaluate import Evaluator
+    from graphface.flags import read_flag
     from graphface.terminal import print_table, print_warnings
 
     box = _box(crop)

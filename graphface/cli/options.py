@@ -46,7 +46,7 @@ def load_graph(
     Raises:
         DocumentError, UnreadableFile, PluginError: see `graphface.load`.
     """
-    from graphface.compose import read_flag
+    from graphface.flags import read_flag
     from graphface.graph import load
 
     return load(
