@@ -20,6 +20,9 @@ from graphface.located import Map, Place, Seq, Source, parse, plain
 
 FORMAT = 1
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
+TAKEN = frozenset({"outputs", "evaluator"})
+"""Names that no input can have: `Graph.run` takes inputs as keyword arguments beside these two of its own."""
+
 _REFERENCE = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*(?:[./][A-Za-z_][A-Za-z0-9_-]*)*")
 _TOP = ("graphface", "name", "doc", "extends", "inputs", "nodes", "outputs", "variants", "profiles")
 _NODE = ("use", "in", "with", "doc")
@@ -181,6 +184,8 @@ def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
 def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
     for name, body, place, key_place in _section(tree, "inputs"):
         yield from _check_path(name, key_place)
+        if name in TAKEN:
+            yield Problem(f"an input cannot be called {name!r}: that is an argument of Graph.run; rename it", key_place)
         if isinstance(body, str):
             document.inputs[name] = InputEntry(name, key_place, Setting(body, place))
         elif isinstance(body, Map) and isinstance(body.get("type"), str):

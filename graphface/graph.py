@@ -116,7 +116,9 @@ class Graph:
     def name(self) -> str:
         return self.composition.name
 
-    def run(self, outputs: Iterable[str] | None = None, *, evaluator: Evaluator | None = None, **inputs: Any) -> Result:
+    def run(
+        self, /, outputs: Iterable[str] | None = None, *, evaluator: Evaluator | None = None, **inputs: Any
+    ) -> Result:
         """Evaluate outputs and only what they need.
 
         Args:

@@ -1,10 +1,12 @@
 """A graph file of the wrong form is answered with every mistake and its place."""
 
+import inspect
 from pathlib import Path
 
 import pytest
 
-from graphface.document import Document, parse_document, read_document
+from graphface import Graph
+from graphface.document import TAKEN, Document, parse_document, read_document
 from graphface.errors import DocumentError, Problem, UnreadableFile
 from graphface.located import Source
 
@@ -142,6 +144,23 @@ class TestForm:
         """All mistakes are reported, in one go."""
         found = problems("nodes:\n  a: 3\n  b: {uses: x}\n  c: {use: [1]}\noutputs:\n  o: 5\n")
         assert sorted(line for line, _, _ in found) == [3, 4, 5, 7]
+
+    @pytest.mark.parametrize("name", sorted(TAKEN))
+    def test_input_that_could_not_be_given(self, name: str) -> None:
+        """An input that `Graph.run` would take for an argument of its own is refused at its place."""
+        ((line, column, message),) = problems(f"inputs:\n  a: float\n  {name}: float\n")
+        assert (line, column) == (4, 3)
+        assert repr(name) in message
+
+    def test_every_taken_name_is_refused(self) -> None:
+        """Those are all named arguments of `Graph.run`; any other name, `self` too, can be an input."""
+        named = [
+            p
+            for p in inspect.signature(Graph.run).parameters.values()
+            if p.kind in (p.KEYWORD_ONLY, p.POSITIONAL_OR_KEYWORD)
+        ]
+        assert {p.name for p in named} == TAKEN
+        assert problems("inputs: {self: float, inputs: float}\n") == []
 
     def test_input_and_node_of_one_name(self) -> None:
         """One name cannot be an input and a node; the message tells the other line."""
