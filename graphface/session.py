@@ -1,8 +1,10 @@
 """A session: one graph kept at hand while its inputs are edited, for an editor that shows every change at once.
 
 What an edit does not reach stays in memory under its key, so a run after an edit does only what the edit reaches. What
-a session adds: inputs that were not edited are not bound again (a picture is hashed and decoded once), and a *preview*,
-the same graph on reduced inputs, answers while the full result is still to come.
+a session adds: inputs that were not edited are not bound again (a picture is hashed and decoded once); a *preview*,
+the same graph on reduced inputs, answers while the full result is still to come; and of what edits do reach only the
+last few states are remembered, so that hours of dragging a light neither fill the memory nor push the representation
+out of it. (Memory that was in use a moment ago is also faster to write to than new.)
 
     session = Session(load("relight"), shrink={"photo": half_size}, photo="portrait.jpg")
     session.edit(scene=scene)
@@ -35,6 +37,7 @@ class Session:
         draft: what the preview evaluates, such as the same graph with a quick profile; by default `graph`.
         shrink: input name to a function that makes the preview's value of the full one.
         evaluator: what runs and remembers; one with a memory tier by default.
+        history: how many states of each node are remembered, for going back to them at no cost.
         inputs: as in `Graph.run`.
     """
 
@@ -45,6 +48,7 @@ class Session:
         draft: Graph | None = None,
         shrink: Mapping[str, Shrink] | None = None,
         evaluator: Evaluator | None = None,
+        history: int = 4,
         **inputs: Any,
     ) -> None:
         self.graph = graph
@@ -55,10 +59,12 @@ class Session:
         self._given: dict[str, Any] = {}
         self._full: dict[str, Bound] = {}
         self._small: dict[str, Bound] = {}
+        self._history = max(1, history)
+        self._past: dict[tuple[bool, str], list[bytes]] = {}
         self._lock = threading.Lock()
         self.edit(**inputs)
 
-    def edit(self, **inputs: Any) -> None:
+    def edit(self, /, **inputs: Any) -> None:
         """Change some inputs; the others keep their values and are not looked at again.
 
         Raises:
@@ -76,12 +82,13 @@ class Session:
     def render(self, outputs: Iterable[str] | None = None) -> Result:
         """The outputs for the inputs as they are now, at full size."""
         with self._lock:
-            return self.evaluator.run(self.graph, self._full, self.graph.targets(outputs))
+            return self._remembered(self.evaluator.run(self.graph, self._full, self.graph.targets(outputs)), full=True)
 
     def preview(self, outputs: Iterable[str] | None = None) -> Result:
         """The outputs of `draft` for the reduced inputs."""
         with self._lock:
-            return self.evaluator.run(self.draft, self._small, self.draft.targets(outputs))
+            small = self.evaluator.run(self.draft, self._small, self.draft.targets(outputs))
+            return self._remembered(small, full=False)
 
     def plan(self, outputs: Iterable[str] | None = None) -> list[Planned]:
         """What `render` would do now: after an edit, the nodes it reaches."""
@@ -89,6 +96,19 @@ class Session:
 
         with self._lock:
             return plan(self.graph, self._full, self.graph.targets(outputs), self.evaluator)
+
+    def _remembered(self, result: Result, *, full: bool) -> Result:
+        """Forget states of the nodes that are older than `history`."""
+        memory = self.evaluator.memory
+        for record in result.records if memory is not None else ():
+            if record.state in ("ran", "memory", "disk"):
+                past = self._past.setdefault((full, record.name), [])
+                if record.key in past:
+                    past.remove(record.key)
+                past.append(record.key)
+                if len(past) > self._history and memory is not None:
+                    memory.drop(past.pop(0))
+        return result
 
     def _shrunk(self, full: Mapping[str, Bound], touched: set[str]) -> dict[str, Bound]:
         """The preview's inputs among `touched`: reduced where there is a way to, else the same."""

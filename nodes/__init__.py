@@ -8,6 +8,7 @@ from graphface import Pack
 _TYPES = "graphface.nodes.types"
 _INTRINSIC = ("intensity", "retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 _MASKS = "graphface.nodes.masks"
+_RENDER = ("samples", "shade", "shadows", "spread", "head", "skin", "specular", "composite", "relit")
 _DETAIL = "graphface.nodes.detail"
 
 pack = Pack(
@@ -32,9 +33,7 @@ pack = Pack(
         "sh": " ".join(f"graphface.nodes.sh.{m}" for m in ("fitting", "rendering", "rotation", "environment", "ball")),
         "detail": " ".join(f"{_DETAIL}.{method}" for method in ("additive", "multiplicative", "none", "split")),
         "detail.edit": " ".join(f"{_DETAIL}.{edit}" for edit in ("bands", "wrinkles", "shine")),
-        "render": "graphface.nodes.render.shade graphface.nodes.render.shadows graphface.nodes.render.spread "
-        "graphface.nodes.render.head graphface.nodes.render.skin graphface.nodes.render.specular "
-        "graphface.nodes.render.composite graphface.nodes.render.relit",
+        "render": " ".join(f"graphface.nodes.render.{stage}" for stage in _RENDER),
         "light": "graphface.nodes.render.light_of graphface.nodes.render.panorama",
         "scatter": "graphface.nodes.scatter.none graphface.nodes.scatter.gaussian graphface.nodes.scatter.screen_space",
         "transfer": "graphface.nodes.transfer",
@@ -42,7 +41,17 @@ pack = Pack(
         "flow": " ".join(f"graphface.nodes.flow.{m}" for m in ("none", "dis", "farneback", "deepflow", "tvl1")),
         "makeup": " ".join(
             f"graphface.nodes.makeup.{stage}"
-            for stage in ("features", "tone", "detail", "skin", "uncovered", "coverage", "boundary")
+            for stage in (
+                "features",
+                "pigment",
+                "tone",
+                "detail",
+                "in_front",
+                "skin",
+                "uncovered",
+                "coverage",
+                "boundary",
+            )
         ),
         "blend": "graphface.nodes.blend "
         + " ".join(f"graphface.nodes.blending.{method}" for method in ("linear", "multiband", "poisson")),
@@ -85,7 +94,9 @@ pack = Pack(
         "Environment": "graphface.nodes.envmap:Environment",
         "Regions": "graphface.nodes.regions:Regions",
         "Representation": "graphface.nodes.representation:Representation",
+        "Samples": "graphface.nodes.render.samples:Samples",
         "Scene": "graphface.nodes.render.scene:Scene",
         "Shadows": "graphface.nodes.render.visibility:Shadows",
+        "Surroundings": "graphface.nodes.render.spread:Surroundings",
     },
 )

@@ -13,7 +13,7 @@ from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
 
 _LEAST_ROOM = 1e-6
-"""A knee nearer to its limit than this is taken for the limit."""
+"""Room that a value is taken to have at least, so that it can be divided by."""
 
 
 @node("blend.recombine")
@@ -37,11 +37,11 @@ def recombine(
     Returns:
         An image in the photo's encoding, within [0, 1] (or the photo's own range where that is wider).
     """
-    pixels = np.empty_like(photo.pixels)
+    pixels = np.empty(photo.pixels.shape, np.float32)
 
     def strip(rows: slice) -> None:
         picture = applied(_strip(detail, rows), rendering(albedo[rows], shading[rows]))
-        pixels[rows] = _bent(picture, photo.pixels[rows], shoulder)
+        _bent(picture, photo.pixels[rows], shoulder, out=pixels[rows])
 
     by_strips(strip, pixels.shape)
     return photo.with_pixels(pixels)
@@ -52,7 +52,7 @@ def _strip(detail: DetailMap, rows: slice) -> DetailMap:
     return DetailMap(detail.offset[rows], gain, pivot)
 
 
-def _bent(picture: FloatArray, before: FloatArray, shoulder: float) -> FloatArray:
+def _bent(picture: FloatArray, before: FloatArray, shoulder: float, out: FloatArray) -> None:
     """The new picture, its change soft-limited to the room that each value had left to 1 (or to 0, downwards).
 
     Up to the share 1 - shoulder of its room r a change passes as it is; beyond, it nears r exponentially, without a
@@ -60,16 +60,36 @@ def _bent(picture: FloatArray, before: FloatArray, shoulder: float) -> FloatArra
     keeps the hue, and was rejected: where one channel is full already the others are held back in patches.)
     """
     black, white = _limits(before)
-    if shoulder > 0:
-        picture = _shouldered(picture, before, black, white, shoulder)
-    np.maximum(picture, black, out=picture)
-    return np.minimum(picture, white, out=picture)
+    if shoulder == 0:
+        np.maximum(picture, black, out=out)
+        np.minimum(out, white, out=out)
+        return
+    straight = np.float32(1 - shoulder)
+    knee = before * np.float32(shoulder)
+    np.maximum(picture, knee if black is _BLACK else knee + straight * black, out=out)
+    knee += straight * white
+    np.minimum(out, knee, out=out)
+    differs = picture != out
+    count = np.count_nonzero(differs)
+    if count * _FEW > picture.size:
+        out[...] = _shouldered(picture, out, before, black, white, shoulder)
+    elif count:
+        places = np.flatnonzero(differs)
+        some = (values.reshape(-1).take(places) for values in (picture, out, before))
+        limits = (limit.reshape(-1).take(places) if limit.ndim else limit for limit in (black, white))
+        out.reshape(-1)[places] = _shouldered(*some, *limits, shoulder)
+
+
+_FEW = 8
+"""Where fewer than one value in so many is beyond the knee, those are picked out."""
+
+_BLACK, _WHITE = np.float32(0), np.float32(1)
 
 
 def _limits(before: FloatArray) -> tuple[FloatArray | np.float32, FloatArray | np.float32]:
     """0 and 1; what the photo has beyond them it may keep."""
-    black: FloatArray | np.float32 = np.float32(0)
-    white: FloatArray | np.float32 = np.float32(1)
+    black: FloatArray | np.float32 = _BLACK
+    white: FloatArray | np.float32 = _WHITE
     if before.size and before.min() < 0:
         black = np.minimum(before, black)
     if before.size and before.max() > 1:
@@ -79,36 +99,28 @@ def _limits(before: FloatArray) -> tuple[FloatArray | np.float32, FloatArray | n
 
 def _shouldered(
     picture: FloatArray,
+    knee: FloatArray,
     before: FloatArray,
     black: FloatArray | np.float32,
     white: FloatArray | np.float32,
     shoulder: float,
 ) -> FloatArray:
-    """Beyond the knees at shoulder * before + (1 - shoulder) * limit, an excess e adds R (1 - exp(-e / R)).
+    """Knee + R (1 - exp(-e / R)) for an excess e of the picture over the knee; R, the room there, has the sign of e.
 
-    R, the room beyond the knee, has the sign of e, so that one formula serves both sides: selecting one of two
-    (`np.where`) costs as much as a dozen multiplications.
+    One formula serves both sides, for selecting one of two (`np.where`) costs as much as a dozen multiplications.
     """
     import cv2
 
-    straight = np.float32(1 - shoulder)
-    share = before * np.float32(shoulder)
-    within = np.maximum(picture, share + straight * black if black.any() else share)
-    np.minimum(within, share + straight * white, out=within)
-    excess = np.subtract(within, picture, out=picture)  # -e
-    if not excess.any():
-        return within
-    upwards = cv2.threshold(excess, 0, 1, cv2.THRESH_BINARY_INV)[1]  # 1, or 0 downwards
-    room = np.asarray(upwards, np.float32)
-    room *= np.float32(shoulder) * (white - black)
-    if black.any():
-        room += np.float32(shoulder) * black
-    room -= share
-    full = np.abs(room) < _LEAST_ROOM
-    if full.any():
-        np.copyto(room, 1, where=full)
-        np.copyto(excess, 0, where=full)
+    excess = np.subtract(knee, picture)  # -e
+    # R = shoulder * (limit - before), kept away from 0 on its own side.
+    upwards = cv2.threshold(excess, 0, 1, cv2.THRESH_BINARY_INV)[1]
+    room = np.asarray(upwards, np.float32).reshape(excess.shape)
+    room *= np.float32(shoulder) * (white - black) + np.float32(2 * _LEAST_ROOM)
+    room += np.float32(shoulder) * black - np.float32(_LEAST_ROOM)
+    room -= before * np.float32(shoulder)
     excess /= room
     np.expm1(excess, out=excess)
     excess *= room
-    return np.subtract(within, excess, out=within)
+    np.subtract(knee, excess, out=excess)
+    np.maximum(excess, black, out=excess)
+    return np.minimum(excess, white, out=excess)

@@ -33,14 +33,16 @@ def _encode(size: FloatArray) -> FloatArray:
     curve: FloatArray = np.asarray(cv2.pow(size, 1 / 2.4), dtype=np.float32).reshape(-1)
     curve *= np.float32(1.055)
     curve -= np.float32(0.055)
-    np.multiply(size, np.float32(12.92), out=curve, where=size <= LINEAR_KNEE)
+    dark = np.flatnonzero(size <= LINEAR_KNEE)  # few; `where=` would cost twice the power
+    curve[dark] = size[dark] * np.float32(12.92)
     return curve
 
 
 def _decode(size: FloatArray) -> FloatArray:
     base = (size + np.float32(0.055)) / np.float32(1.055)
     curve: FloatArray = np.asarray(cv2.pow(base, 2.4), dtype=np.float32).reshape(-1)
-    np.divide(size, np.float32(12.92), out=curve, where=size <= SRGB_KNEE)
+    dark = np.flatnonzero(size <= SRGB_KNEE)
+    curve[dark] = size[dark] / np.float32(12.92)
     return curve
 
 
@@ -50,5 +52,9 @@ def _blockwise(curve: Callable[[FloatArray], FloatArray], values: FloatArray) ->
     out = np.empty_like(flat)
     for start in range(0, flat.size, _BLOCK):
         block = slice(start, start + _BLOCK)
-        np.copysign(curve(np.abs(flat[block])), flat[block], out=out[block])
+        part = flat[block]
+        if part.min() >= 0:
+            out[block] = curve(part)
+        else:
+            np.copysign(curve(np.abs(part)), part, out=out[block])
     return out.reshape(np.shape(values))

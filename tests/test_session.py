@@ -96,3 +96,34 @@ class TestSession:
         session.edit(other=third)
         fates = {node.name: node.fate for node in session.plan()}
         assert fates == {"a": "memory", "b": "run"}
+
+
+class TestHistory:
+    def edits(self, relight, count, **settings):
+        """A session whose input `other` was edited so many times, rendering each."""
+        session = Session(relight, photo=picture(0.1), other=picture(0), **settings)
+        for turn in range(count):
+            session.edit(other=picture(turn / 100))
+            session.render()
+        return session
+
+    def test_the_last_states_are_remembered(self, relight):
+        """Going back a step runs nothing."""
+        session = self.edits(relight, 3)
+        session.edit(other=picture(0.01))
+        assert not ran(session.render()) - {"other"}
+
+    def test_older_states_are_forgotten(self, relight):
+        """Hours of edits hold no more memory than a few, and what no edit reaches is never lost."""
+        few, many = self.edits(relight, 4, history=2), self.edits(relight, 40, history=2)
+        assert many.evaluator.memory.bytes == few.evaluator.memory.bytes
+        many.edit(other=picture(0.9))
+        assert "a" not in ran(many.render())
+
+    def test_a_state_gone_back_to_is_young_again(self, relight):
+        """It is what was used longest ago that goes."""
+        session = self.edits(relight, 2, history=2)
+        for value in (0.0, 0.5, 0.0):
+            session.edit(other=picture(value))
+            result = session.render()
+        assert "b" not in ran(result)

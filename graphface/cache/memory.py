@@ -70,6 +70,12 @@ class MemoryTier:
             if self.bytes > self.budget:
                 self._shrink(key)
 
+    def drop(self, key: bytes) -> None:
+        """Forget a value, if it is held."""
+        with self._lock:
+            if key in self._values:
+                self._drop(key)
+
     def clear(self) -> None:
         with self._lock:
             self.evicted.update(self._values)

@@ -25,9 +25,10 @@ from graphface.nodes.masks.face import face as face_mask
 from graphface.nodes.metrics import mean_angle, psnr, si_psnr
 from graphface.nodes.morphable.facemesh import facemesh as build_mesh
 from graphface.nodes.render.irradiance import irradiance
+from graphface.nodes.render.samples import samples
 from graphface.nodes.render.scene import DirectionalLight, Scene
 from graphface.nodes.render.shade import shade
-from graphface.nodes.render.spread import spread
+from graphface.nodes.render.spread import spread, surroundings
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import Encoding, Image
 
@@ -108,7 +109,8 @@ def _relight_head(
     photo = taken if encoding == "srgb" else taken.with_pixels(decode_srgb(taken.pixels), "linear")
     intrinsic = intensity(photo)
     estimated = sh.render(sh.fit(intrinsic.shading, normals, mask).light, normals)
-    old = spread(estimated, mask, surface, landmarks)
+    around, points = surroundings(mask, surface, landmarks), samples(surface, estimated, mask, photo)
+    old = spread(estimated, around)
     leftover = getattr(detail, method)(photo, intrinsic.albedo, old)
 
     covered = surface.coverage > 0
@@ -120,7 +122,7 @@ def _relight_head(
     out.mkdir(parents=True, exist_ok=True)
     for light in LIGHTS if source == "frontal" else [name for name in ("frontal", *LIGHTS) if name != source]:
         scene = known_scene(lights[light], unit)
-        new = spread(shade(normals, scene, estimated, mask, photo), mask, surface, landmarks)
+        new = spread(shade(points, scene, estimated), around)
         relit = blend.recombine(photo, intrinsic.albedo, new, leftover, shoulder=shoulder)
         result = taken.with_pixels(relit.pixels if encoding == "srgb" else encode_srgb(relit.pixels))
         write_image(result, out / f"{light}.png")

@@ -26,16 +26,19 @@ def in_three_channels(values: FloatArray) -> FloatArray:
 
 
 def applied(detail: DetailMap, rendered: FloatArray) -> FloatArray:
-    """The picture that a detail map makes of a rendering, H x W x 3, unbounded; see `DetailMap` for the equation."""
+    """The picture that a detail map makes of a rendering, H x W x 3, unbounded; see `DetailMap` for the equation.
+
+    `rendered` is used up: its memory serves as scratch.
+    """
     if detail.gain is None:
         return rendered + detail.offset
     if detail.pivot is None:
         picture = detail.gain * rendered
     else:
         # gain * min(rendering, pivot) + max(rendering - pivot, 0)
-        below = np.minimum(rendered, detail.pivot)
-        picture = rendered - below
-        below *= detail.gain
-        picture += below
+        picture = np.minimum(rendered, detail.pivot)
+        above = np.subtract(rendered, picture, out=rendered)
+        picture *= detail.gain
+        picture += above
     picture += detail.offset
     return picture

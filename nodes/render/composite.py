@@ -38,8 +38,30 @@ def _wanted(scene: Scene) -> Needs:
     return {
         "labels": scene.background != 1 or "the scene lights the background like the face (background: 1)",
         "shine": scene.hair != 0 or "the scene lights hair like the face (hair: 0)",
-        "own": scene.background != 1 or "without labels all is lit like the face (background: 1)",
+        "response": scene.background != 1 or "without labels all is lit like the face (background: 1)",
     }
+
+
+@node("render.response")
+def response(
+    own: Shading, estimated: Shading, labels: Segmentation, *, floor: Annotated[float, Field(gt=0, le=1)] = 0.02
+) -> Mask:
+    """How much a pixel answers to added light: all of it on skin, less where it is dark by itself.
+
+    Beside the skin a pixel darker than the estimated light says is dark by itself (brown hair, a navy suit): intensity
+    as shading has put its darkness into `own`, and all its colour into the albedo. Light added as on skin would make it
+    glow in that colour, so there added light counts in proportion to `own` over `estimated`: as in the ratio.
+
+    Args:
+        own: the photo's own shading, H x W.
+        estimated: shading under the photo's estimated light, H x W or H x W x 3.
+
+    Returns:
+        1 where the label is face; elsewhere own / estimated, at most 1.
+    """
+    grey = estimated.mean(axis=2) if estimated.ndim == 3 else estimated
+    share = np.clip(own / np.maximum(grey, np.float32(floor)), 0, 1)
+    return np.asarray(1 + (share - 1) * (1 - labels.face), np.float32)
 
 
 @node("render.composite", needs=_wanted)
@@ -49,22 +71,18 @@ def composite(
     scene: Scene,
     labels: Lazy[Segmentation] = None,
     shine: Lazy[Mask] = None,
-    own: Lazy[Shading] = None,
+    response: Lazy[Mask] = None,
 ) -> Shading:
     """The face takes the new shading, hair the old one at its bright pixels, the background a constant mixture.
 
     Hair looks like hair by its highlights, and those are no matter of the face's light. The blend is by soft labels, so
     that it is as smooth as they are.
 
-    Beside the skin a pixel darker than the estimated light says is dark by itself (brown hair, a navy suit): intensity
-    as shading has put its darkness into `own`, and all its colour into the albedo. Light added as on skin would make it
-    glow in that colour, so there added light counts in proportion to `own` over `estimated`: as in the ratio.
-
     Args:
         estimated, relit: shading of the whole picture under the photo's own and the new light; H x W or H x W x 3.
         scene: `scene.hair` is kept of the old shading at the brightest hair, `scene.background` is the new one's share.
         labels, shine: without them all counts as face.
-        own: the photo's own shading, H x W; without it added light counts in full everywhere.
+        response: `render.response`, H x W; without it added light counts in full everywhere.
 
     Returns:
         estimated + share * (relit - estimated), float32, the more channels of the two.
@@ -77,12 +95,11 @@ def composite(
         before = _like(estimated[rows], mixed)
         change = _like(relit[rows], mixed) - before
         change *= _like(_new_share(scene, labels, shine, rows), mixed)
-        if labels is not None and own is not None:
-            dark = _share_of(own[rows], estimated[rows], 1 - labels.face[rows])
-            # Only what is added: max(change, 0) * dark + min(change, 0)
+        if response is not None:
+            # Only what is added: max(change, 0) * response + min(change, 0)
             less = np.minimum(change, 0)
             np.maximum(change, 0, out=change)
-            change *= _like(dark, mixed)
+            change *= _like(response[rows], mixed)
             change += less
         np.add(before, change, out=mixed[rows])
 
@@ -105,14 +122,3 @@ def _new_share(scene: Scene, labels: Segmentation | None, shine: Mask | None, ro
         kept = kept + shining if labels is not None else shining
     np.minimum(kept, 1, out=kept)
     return np.subtract(1, kept, out=kept)
-
-
-def _share_of(own: Shading, estimated: Shading, where: Mask, floor: float = 0.02) -> Shading:
-    """own / estimated, at most 1, where `where` is 1; 1 where it is 0."""
-    grey = estimated.mean(axis=2) if estimated.ndim == 3 else estimated
-    share = np.asarray(own / np.maximum(grey, np.float32(floor)), np.float32)
-    np.clip(share, 0, 1, out=share)
-    share -= 1
-    share *= where
-    share += 1
-    return share

@@ -5,30 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.types import Camera, FloatArray, Mesh, Surface
-
-
-def points_seen(mesh: Mesh, surface: Surface, scale: float = 1.0) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Points and unit normals of the surface, one per covered pixel of a grid `scale` times as fine as the picture.
-
-    Returns:
-        points (n, 3) in the camera frame, inter-ocular distances; normals (n, 3); covered, bool, the grid's h x w.
-    """
-    height, width = surface.coverage.shape
-    rows, columns = (grid_middles(n, scale) for n in (height, width))
-    grid = np.ix_(rows, columns)
-    covered = surface.coverage[grid] > 0
-    down, across = np.nonzero(covered)
-    v, u = rows[down], columns[across]
-    points = lifted_pixels(u, v, surface.depth[v, u], mesh.camera)
-    points *= np.float32(1 / max(mesh.interocular, 1e-3))
-    return points, surface.normals[v, u], covered
-
-
-def surface_points(covered: NDArray[np.bool_], surface: Surface, mesh: Mesh) -> FloatArray:
-    """The camera-frame points (n, 3) of some pixels of the surface, inter-ocular distances."""
-    v, u = np.nonzero(covered)
-    return lifted_pixels(u, v, surface.depth[v, u], mesh.camera) / np.float32(max(mesh.interocular, 1e-3))
+from graphface.nodes.types import Camera, FloatArray
 
 
 def lifted_pixels(u: NDArray[np.intp], v: NDArray[np.intp], depth: FloatArray, camera: Camera) -> FloatArray:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.strips import side_by_side
 from graphface.nodes.types import FloatArray
 
 _NEAR = 0.05
@@ -23,6 +24,9 @@ _NEAR = 0.05
 _TEXELS = 1.5
 """Least lift in texels. A texel off across the light is its width times the tangent of the angle of incidence off in
 depth; lifting a point by d along its normal gains d over the cosine, which is more at every angle."""
+
+_AT_A_TIME = 1 << 14
+"""Points looked up together, so that what is computed for them stays in the processor's cache."""
 
 _WIDEST = np.radians(150.0)
 """Field of view of a map whose light stands in or at the face."""
@@ -47,16 +51,40 @@ def lit_share(
         resolution: texels along a side of each map.
         lift: how far above the surface a point is compared.
     """
+    caster = _Caster(vertices, triangles)
+    maps: list[_ShadowMap | None] = [None] * len(places)
+
+    def draw(index: int) -> None:
+        maps[index] = _ShadowMap(places[index], caster, resolution)
+
+    side_by_side(draw, range(len(places)))
+    drawn = [map_ for map_ in maps if map_ is not None]
+    shares = np.empty(len(points), np.float32)
+
+    def light(start: int) -> None:
+        some = slice(start, start + _AT_A_TIME)
+        shares[some] = _share(drawn, points[some], normals[some], lift)
+
+    side_by_side(light, range(0, len(points), _AT_A_TIME))
+    return shares
+
+
+def _share(maps: list[_ShadowMap], points: FloatArray, normals: FloatArray, lift: float) -> FloatArray:
+    """`lit_share` past maps that are drawn."""
     received = np.zeros(len(points), np.float32)
     possible = np.full(len(points), np.float32(1e-6))
-    for place in places:
-        towards = place - points
+    for map_ in maps:
+        towards = map_.place - points
         distance = np.sqrt(np.einsum("nc,nc->n", towards, towards))
-        cosine = np.maximum(np.einsum("nc,nc->n", towards, normals) / np.maximum(distance, np.float32(1e-4)), 0)
-        map_ = _ShadowMap(place, vertices, triangles, resolution)
-        above = max(lift, _TEXELS * map_.texel)
-        received += cosine * map_.sees(points + normals * np.float32(above), np.float32(above / 2))
-        possible += cosine
+        cosine = np.einsum("nc,nc->n", towards, normals) / np.maximum(distance, np.float32(1e-4))
+        facing = np.flatnonzero(cosine > 0)
+        if not len(facing):
+            continue
+        above = np.float32(max(lift, _TEXELS * map_.texel))
+        cosine = cosine.take(facing)
+        seen = map_.sees(points.take(facing, axis=0) + normals.take(facing, axis=0) * above, above / 2)
+        received[facing] += cosine * seen
+        possible[facing] += cosine
     return np.asarray((received + np.float32(1e-6)) / possible, np.float32)
 
 
@@ -71,28 +99,37 @@ def disc(towards: FloatArray, radius: float, count: int) -> FloatArray:
     return np.asarray(offsets, np.float32)
 
 
+class _Caster:
+    """A mesh and the ball around it."""
+
+    def __init__(self, vertices: FloatArray, triangles: NDArray[np.int32]) -> None:
+        self.vertices, self.triangles = vertices, triangles
+        self.middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+        self.reach = float(np.sqrt(np.square(vertices - self.middle).sum(axis=1).max()))
+
+
 class _ShadowMap:
     """The depth that a light sees in each direction: a camera at the light's place, its view just around the mesh."""
 
-    def __init__(self, place: FloatArray, vertices: FloatArray, triangles: NDArray[np.int32], resolution: int) -> None:
+    def __init__(self, place: FloatArray, caster: _Caster, resolution: int) -> None:
         import cv2
 
-        middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
-        self._place = place
+        middle, reach = caster.middle, caster.reach
+        self.place = place
         self._axes = _looking(middle - place)
-        seen = self._from_light(vertices)
-        reach = float(np.sqrt(np.square(vertices - middle).sum(axis=1).max()))
+        seen = self._from_light(caster.vertices)
         away = float(np.linalg.norm(middle - place))
         near, far = max(away - 1.1 * reach, _NEAR), away + 1.1 * reach + 2 * _NEAR
         self._slope = _opening(seen, near)
         self.texel = 2 * self._slope * max(away, near) / resolution
         self._resolution = resolution
-        self._depth = np.full((resolution, resolution), far, np.float32)
+        depth = np.full((resolution, resolution), far, np.float32)
         settings = cv2.TriangleRasterizeSettings()
         settings.setCullingMode(cv2.RASTERIZE_CULLING_NONE)
         view_angle = 2 * np.arctan(self._slope)
         pose = np.eye(4, dtype=np.float32)
-        cv2.triangleRasterizeDepth(seen, triangles, self._depth, pose, view_angle, near, far, settings)
+        cv2.triangleRasterizeDepth(seen, caster.triangles, depth, pose, view_angle, near, far, settings)
+        self._depth = np.pad(depth, 2, constant_values=np.float32(np.inf))
 
     def sees(self, points: FloatArray, bias: np.float32) -> FloatArray:
         """Percentage-closer filtering over the four texels around each point; what the map does not cover is lit."""
@@ -104,22 +141,21 @@ class _ShadowMap:
         column, row = (np.asarray(np.clip(v, -1, self._resolution), np.float32) for v in texels)
         left, top = np.floor(column), np.floor(row)
         right_share, low_share = column - left, row - top
-        padded = np.pad(self._depth, 2, constant_values=np.float32(np.inf))
-        first = (top.astype(np.intp) + 2) * padded.shape[1] + left.astype(np.intp) + 2
-        flat = padded.reshape(-1)
+        below = self._depth.shape[1]
+        first = (top.astype(np.intp) + 2) * below + left.astype(np.intp) + 2
+        flat = self._depth.reshape(-1)
         limit = depth - bias
 
         def passes(step: int) -> FloatArray:
             return np.asarray(flat.take(first + step) >= limit, np.float32)
 
         upper = passes(0) * (1 - right_share) + passes(1) * right_share
-        below = padded.shape[1]
         lower = passes(below) * (1 - right_share) + passes(below + 1) * right_share
         return np.asarray(upper * (1 - low_share) + lower * low_share, np.float32)
 
     def _from_light(self, points: FloatArray) -> FloatArray:
         """In the light's own frame: x right, y up, -z ahead."""
-        turned: FloatArray = np.ascontiguousarray((points - self._place) @ self._axes.T, np.float32)
+        turned: FloatArray = np.ascontiguousarray((points - self.place) @ self._axes.T, np.float32)
         return turned
 
 

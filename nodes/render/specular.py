@@ -6,15 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import Lazy, Needs, node
-from graphface.nodes.colour import decode_srgb
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.irradiance import arriving, irradiance, towards_light
 from graphface.nodes.render.lights import EnvironmentLight, HarmonicLight
-from graphface.nodes.render.places import surface_points
+from graphface.nodes.render.samples import Samples
 from graphface.nodes.render.scene import Scene
-from graphface.nodes.render.shade import light_gain
+from graphface.nodes.render.shade import light_gain, seen_shares
 from graphface.nodes.render.visibility import Shadows
-from graphface.nodes.sh import has_surface
-from graphface.nodes.types import FloatArray, Image, Lighting, Mask, Mesh, Normals, Shading, Surface
+from graphface.nodes.strips import by_strips
+from graphface.nodes.types import FloatArray, Lighting, Mask, Shading
 
 NORMAL_REFLECTANCE = 0.028
 """Fresnel reflectance of skin head-on (index of refraction 1.4)."""
@@ -32,13 +32,9 @@ def _wanted(scene: Scene) -> Needs:
 
 @node("render.specular", needs=_wanted)
 def specular(
-    normals: Normals,
+    samples: Samples,
     scene: Scene,
-    estimated: Shading,
     mask: Mask,
-    photo: Image,
-    mesh: Mesh,
-    surface: Surface,
     shadows: Lazy[Shadows] = None,
     panorama: Lazy[Lighting] = None,
 ) -> Shading:
@@ -47,27 +43,31 @@ def specular(
     Walter, Marschner, Li, Torrance, Microfacet Models for Refraction, EGSR 2007; `scene.roughness` squared is their
     alpha. Ambient and spherical-harmonic light makes none.
 
+    Args:
+        mask: where there is skin, H x W.
+
     Returns:
         Linear light to be added to the linear picture, H x W x 3, not negative; 0 off the surface.
     """
-    covered = has_surface(normals)
-    facing = normals[covered]
-    points = surface_points(covered, surface, mesh)
-    visible = {} if shadows is None else {n: shadows.of(n, mask.shape)[covered] for n in shadows.lights}
-    old = estimated[covered].astype(np.float32, copy=False)
-    old = np.maximum(decode_srgb(old) if photo.encoding == "srgb" else old, 0)
+    normals, points, visible = samples.normals, samples.points, seen_shares(samples, shadows)
     share = scene.mix if scene.mode == "mix" else 1.0
-    gain = share * light_gain(scene, irradiance(scene, facing, points, visible, panorama), old, mask[covered])
-    total = np.zeros((len(facing), 3), np.float32)
+    new = irradiance(scene, normals, points, visible, panorama)
+    gain = share * light_gain(scene, new, samples.irradiance, samples.weights)
+    total = np.zeros((len(normals), 3), np.float32)
     for index, light in enumerate(scene.lights):
         if isinstance(light, HarmonicLight | EnvironmentLight):
             continue
-        lobe = _lobe(facing, towards_light(light, facing, points), scene.roughness)
-        arrives = arriving(light, facing, points) * visible.get(index, np.float32(1))
+        lobe = _lobe(normals, towards_light(light, normals, points), scene.roughness)
+        arrives = arriving(light, normals, points) * visible.get(index, np.float32(1))
         total += (lobe * arrives)[:, None] * light.radiance
-    result = np.zeros((*covered.shape, 3), np.float32)
-    result[covered] = total * np.float32(gain * scene.specular * np.pi / _SKIN_ALBEDO)
-    return result * mask[..., None]
+    shine = samples.enlarged(samples.on_grid(total * np.float32(gain * scene.specular * np.pi / _SKIN_ALBEDO)))
+    result = np.empty_like(shine)
+
+    def strip(rows: slice) -> None:
+        np.multiply(shine[rows], in_three_channels(mask[rows] * samples.coverage[rows]), out=result[rows])
+
+    by_strips(strip, result.shape)
+    return result
 
 
 def _lobe(normals: NDArray[np.float32], towards: FloatArray, roughness: float) -> FloatArray:

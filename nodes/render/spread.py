@@ -10,6 +10,7 @@ inter-ocular distance has `resolution` pixels; on the face itself the full-resol
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -26,48 +27,76 @@ Length = Annotated[float, Field(gt=0, le=10)]
 Resolution = Annotated[int, Field(ge=8, le=256)]
 
 
-@node("render.spread")
-def spread(
-    shading: Shading,
+_ENOUGH = 4.0
+"""Width in pixels above which a blur needs no finer copy."""
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """How a shading goes on beyond a face: all of `render.spread` that the light does not change.
+
+    `weight` H x W is the soft mask where there is a surface. On the small copy, h x w: `total`, the weight's area
+    means; `nearest` intp, the place of the face pixel that each pixel copies, counted row by row; `far` 0..1, how much
+    of the wider of two blurs it takes; `sigma`, the narrower's width in pixels. All but `weight` are empty without a
+    face.
+    """
+
+    weight: Mask
+    total: FloatArray
+    nearest: NDArray[np.intp]
+    far: FloatArray
+    sigma: float
+
+
+@node("render.surroundings")
+def surroundings(
     mask: Mask,
     surface: Surface,
     landmarks: Landmarks,
     *,
     smoothing: Length = 0.25,
     resolution: Resolution = 32,
-) -> Shading:
+) -> Surroundings:
+    """Which face pixel each pixel beyond the face is nearest to, and how smoothly it takes after it.
+
+    Args:
+        mask: the face; between 0 and 1 its shading goes over into the continued one.
+        surface: only where it covers the picture is the shading known.
+        smoothing: width of the blur beside the face, in inter-ocular distances; it triples with distance.
+        resolution: pixels per inter-ocular distance of the small copy that is worked on.
+    """
+    weight = mask * (surface.coverage > 0)
+    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
+    total = _shrunk(weight, scale)
+    sigma = max(smoothing * landmarks.interocular * scale, 0.5)
+    core = _core(total)
+    if core is None:
+        warn(
+            "render.surroundings: the mask is empty; shading is taken as 0 everywhere, so no light changes the picture"
+        )
+        nothing = np.zeros((0, 0), np.float32)
+        return Surroundings(weight, nothing, np.zeros((0, 0), np.intp), nothing, sigma)
+    nearest, distance = _nearest(core)
+    return Surroundings(weight, total, nearest, _smooth_step(distance / np.float32(4 * sigma)), sigma)
+
+
+@node("render.spread")
+def spread(shading: Shading, surroundings: Surroundings) -> Shading:
     """A shading known on the face, continued over the whole picture.
 
     Args:
-        shading: H x W or H x W x 3, valid where `surface` covers the picture.
-        mask: the face; between 0 and 1 the shading goes over into the continued one.
-        smoothing: width of the blur beside the face, in inter-ocular distances; it triples with distance.
-        resolution: pixels per inter-ocular distance of the small copy that is worked on.
+        shading: H x W or H x W x 3, valid where there is a surface.
 
     Returns:
         float32 of the shape of `shading`: `shading` where the mask is 1, defined everywhere.
     """
-    import cv2
-
-    weight = mask * (surface.coverage > 0)
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    small_weight = _shrunk(weight, scale)
-    core = _core(small_weight)
-    if core is None:
-        warn("render.spread: the mask is empty; the shading is taken as 0 everywhere, so no light changes the picture")
+    weight = surroundings.weight
+    if surroundings.total.size == 0:
         return np.zeros_like(shading)
-    extra = [1] * (shading.ndim - 2)
-    small_weight = small_weight.reshape(*small_weight.shape, *extra)
-    weighted = _like(weight, shading) * shading
-    small = (_shrunk(weighted, scale) / np.maximum(small_weight, 1e-12)).astype(np.float32, copy=False)
-    nearest, distance = _nearest(small, core)
-    blur = max(smoothing * landmarks.interocular * scale, 0.5)
-    near, far = (
-        np.asarray(cv2.GaussianBlur(nearest, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE), np.float32)
-        for sigma in (blur, 3 * blur)
-    )
-    t = _smooth_step(distance / (4 * blur)).reshape(*distance.shape, *extra)
-    beyond = _enlarged(near + (far - near) * t, mask.shape)
+    small = _small(shading, surroundings)
+    nearest = small.reshape(-1, *small.shape[2:]).take(surroundings.nearest, axis=0)
+    near, far = (_blurred(nearest, sigma) for sigma in (surroundings.sigma, 3 * surroundings.sigma))
+    beyond = _enlarged(near + (far - near) * _like(surroundings.far, shading), weight.shape)
 
     def join(rows: slice) -> None:
         inside = shading[rows] - beyond[rows]
@@ -76,6 +105,21 @@ def spread(
 
     by_strips(join, beyond.shape)
     return beyond
+
+
+def _small(shading: Shading, surroundings: Surroundings) -> FloatArray:
+    """The shading's weighted area means in the small copy."""
+    import cv2
+
+    height, width = surroundings.total.shape
+    weighted = np.empty_like(shading)
+
+    def strip(rows: slice) -> None:
+        np.multiply(shading[rows], _like(surroundings.weight[rows], shading), out=weighted[rows])
+
+    by_strips(strip, weighted.shape)
+    sums = np.asarray(cv2.resize(weighted, (width, height), interpolation=cv2.INTER_AREA), np.float32)
+    return sums / _like(np.maximum(surroundings.total, np.float32(1e-12)), shading)
 
 
 def _like(weight: Mask, shading: Shading) -> FloatArray:
@@ -112,7 +156,7 @@ def background(
     core = _core(small_mask)
     if core is None:
         return relit
-    _, distance = _nearest(small_mask, core)
+    _, distance = _nearest(core)
     fall = _smooth_step((distance / (unit * scale) - near) / max(far - near, 1e-3))
     share = _enlarged(1 - (1 - scene.background) * fall, mask.shape)
     if estimated.ndim < relit.ndim:
@@ -135,15 +179,28 @@ def _core(weight: FloatArray) -> NDArray[np.bool_] | None:
     return weight >= min(0.5, most) if most > 1e-12 else None
 
 
-def _nearest(values: FloatArray, core: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
-    """Each pixel's value from its nearest core pixel, and the distance to it."""
+def _nearest(core: NDArray[np.bool_]) -> tuple[NDArray[np.intp], FloatArray]:
+    """The place of each pixel's nearest core pixel, counted row by row, and the distance to it in pixels."""
     import cv2
 
     outside = (~core).astype(np.uint8)
     distance, labels = cv2.distanceTransformWithLabels(outside, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
-    of_label = np.zeros((int(labels.max()) + 1, *values.shape[2:]), np.float32)
-    of_label[labels[core]] = values[core]
-    return of_label[labels], np.asarray(distance, np.float32)
+    place = np.zeros(int(labels.max()) + 1, np.intp)
+    place[labels[core]] = np.flatnonzero(core)
+    return place[labels], np.asarray(distance, np.float32)
+
+
+def _blurred(values: FloatArray, sigma: float) -> FloatArray:
+    """A Gaussian; a wide one is made on a smaller copy, which cannot be told apart and costs a tenth."""
+    import cv2
+
+    height, width = values.shape[:2]
+    factor = min(sigma / _ENOUGH, height, width)
+    if factor > 1:
+        size = max(1, round(width / factor)), max(1, round(height / factor))
+        values, sigma = np.asarray(cv2.resize(values, size, interpolation=cv2.INTER_AREA), np.float32), _ENOUGH
+    blurred = np.asarray(cv2.GaussianBlur(values, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE), np.float32)
+    return blurred if factor <= 1 else _enlarged(blurred, (height, width))
 
 
 def _smooth_step(t: FloatArray) -> FloatArray:

@@ -63,6 +63,10 @@ def _points() -> Landmarks:
     return Landmarks(points, "facemesh468")
 
 
+def _surroundings() -> Any:
+    return default_registry().operator("render.surroundings").function(_disc(), _surface(), _points())
+
+
 CASES = [
     Case("image.encode", lambda: (_photo(),), {"encoding": "linear"}),
     Case("image.resize", lambda: (_photo(),), {"long_side": 20}),
@@ -73,7 +77,9 @@ CASES = [
     Case("detail.multiplicative", lambda: (_photo(), _photo().pixels, _grey())),
     Case("detail.none", lambda: (_photo(), _photo().pixels, _grey())),
     Case("masks.face", lambda: (_surface(), _points())),
-    Case("render.spread", lambda: (_grey(), _disc(), _surface(), _points())),
+    Case("render.samples", lambda: (_surface(), _grey(), _disc(), _photo(), _mesh())),
+    Case("render.surroundings", lambda: (_disc(), _surface(), _points())),
+    Case("render.spread", lambda: (_grey(), _surroundings())),
     Case("surface.rasterize", lambda: (_mesh(), _photo())),
 ]
 

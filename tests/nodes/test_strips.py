@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import os
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.nodes.strips import by_strips
+from graphface.nodes.strips import by_strips, side_by_side
 
 
 class TestByStrips:
@@ -25,7 +28,7 @@ class TestByStrips:
     def test_a_large_picture_has_several_strips(self):
         """Whatever a strip needs beside it stays small."""
         strips = []
-        by_strips(strips.append, (1000, 1000, 3))
+        by_strips(strips.append, (2000, 2000, 3))
         assert len(strips) > 10
 
     def test_an_error_is_raised(self):
@@ -37,3 +40,49 @@ class TestByStrips:
 
         with pytest.raises(ValueError, match="here"):
             by_strips(work, (1000, 1000, 3))
+
+
+class TestSideBySide:
+    @given(count=st.integers(0, 40))
+    def test_each_item_once(self, count):
+        """None is left out and none is taken by two threads."""
+        taken = []
+        side_by_side(taken.append, range(count))
+        assert sorted(taken) == list(range(count))
+
+    def test_work_may_share_its_own_work(self):
+        """However deep: whoever calls works too, so nobody waits for a thread that waits for him."""
+        done = []
+
+        def work(depth):
+            if depth:
+                side_by_side(work, [depth - 1] * 3)
+            else:
+                done.append(1)
+
+        work(5)
+        assert len(done) == 3**5
+
+    def test_after_a_failure_it_still_works(self):
+        """A failing call takes nothing of the next one with it."""
+
+        def fail(item):
+            raise ValueError(item)
+
+        for _ in range(20):
+            with pytest.raises(ValueError, match=r"\d"):
+                side_by_side(fail, range(50))
+            assert _count(50) == 50
+
+    @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+    def test_survives_a_fork(self):
+        """A child of a process that has used its threads has none of them, and starts its own."""
+        side_by_side(lambda item: None, range(50))
+        with multiprocessing.get_context("fork").Pool(1) as pool:
+            assert pool.apply_async(_count, (50,)).get(timeout=60) == 50
+
+
+def _count(items):
+    seen = []
+    side_by_side(seen.append, range(items))
+    return len(seen)

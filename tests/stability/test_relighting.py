@@ -15,9 +15,10 @@ from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.masks.face import face
 from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.render.samples import samples
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shade import shade
-from graphface.nodes.render.spread import background, spread
+from graphface.nodes.render.spread import background, spread, surroundings
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import Image, Landmarks
 
@@ -57,8 +58,9 @@ def relit(pixels, points, scene, method=detail.additive):
     mask = face(surface, points)
     parts = intensity(photo)
     estimated = sh.render(sh.fit(parts.shading, surface.normals, mask).light, surface.normals)
-    old = spread(estimated, mask, surface, points)
-    new = spread(shade(surface.normals, scene, estimated, mask, photo), mask, surface, points)
+    around = surroundings(mask, surface, points)
+    old = spread(estimated, around)
+    new = spread(shade(samples(surface, estimated, mask, photo), scene, estimated), around)
     mixed = background(old, new, mask, points, scene)
     return blend.recombine(photo, parts.albedo, mixed, method(photo, parts.albedo, old)).pixels
 

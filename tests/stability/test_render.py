@@ -15,10 +15,11 @@ from graphface.nodes.masks.face import face
 from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.render.head import head
+from graphface.nodes.render.samples import samples
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shade import shade
 from graphface.nodes.render.shadows import shadow_maps
-from graphface.nodes.render.spread import spread
+from graphface.nodes.render.spread import spread, surroundings
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.scatter import screen_space
 from graphface.nodes.types import Image, Landmarks
@@ -63,11 +64,13 @@ def shaded(scene, face_mesh=None, **settings):
     mask = face(surface, landmarks)
     estimated = sh.render(sh.fit(intensity(photo()).shading, surface.normals, mask).light, surface.normals)
     scene = Scene.coerce(scene)
-    shadows = shadow_maps(whole, surface, scene, **{"samples": 3, "resolution": 64, **settings})
-    new = shade(surface.normals, scene, estimated, mask, photo(), whole, surface, shadows)
+    points = samples(surface, estimated, mask, photo(), whole)
+    shadows = shadow_maps(whole, points, scene, **{"samples": 3, "resolution": 64, **settings})
+    new = shade(points, scene, estimated, shadows)
     if scene.scatter:
         new = screen_space(new, estimated, surface, landmarks, photo(), scene)
-    old, new = (spread(v, mask, surface, landmarks) for v in (estimated, new))
+    around = surroundings(mask, surface, landmarks)
+    old, new = (spread(v, around) for v in (estimated, new))
     return old, new, landmarks
 
 

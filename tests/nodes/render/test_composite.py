@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphface import UsageError
-from graphface.nodes.render.composite import composite, hair_shine
+from graphface.nodes.render.composite import composite, hair_shine, response
 from graphface.nodes.render.relit import relit
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.skin import skin
@@ -54,18 +54,32 @@ class TestComposite:
 
     def test_dark_hair_does_not_glow(self):
         """Light added to hair half as bright as the light says is half as much (the ratio); on skin it is all there."""
-        mixed = composite(OLD, NEW, Scene(background=1, hair=0), thirds(), None, OLD / 2)
+        held = response(OLD / 2, OLD, thirds())
+        mixed = composite(OLD, NEW, Scene(background=1, hair=0), thirds(), None, held)
         np.testing.assert_allclose(mixed[:, :3], 0.8)
         np.testing.assert_allclose(mixed[:, 3:6], 0.6)
 
     def test_dark_hair_loses_light_like_all_else(self):
         """Only added light is held back."""
-        mixed = composite(NEW, OLD, Scene(background=1, hair=0), thirds(), None, OLD / 2)
+        mixed = composite(NEW, OLD, Scene(background=1, hair=0), thirds(), None, response(OLD / 2, NEW, thirds()))
         np.testing.assert_allclose(mixed, 0.4)
 
     def test_without_labels_all_is_face(self):
         """Nothing to blend."""
         assert composite(OLD, NEW, Scene(background=1, hair=0)) is NEW
+
+
+class TestResponse:
+    def test_skin_answers_in_full(self):
+        """However dark its own shading is."""
+        assert (response(OLD / 2, OLD, thirds())[:, :3] == 1).all()
+
+    def test_never_more_than_in_full(self):
+        """A pixel brighter than the light says, or without light, is not lit more than skin, nor less than nothing."""
+        for own, estimated in ((NEW, OLD), (NEW, 0 * OLD), (0 * OLD, 0 * OLD)):
+            held = response(own, estimated, thirds())
+            assert held.min() >= 0
+            assert held.max() <= 1
 
 
 class TestHairShine:

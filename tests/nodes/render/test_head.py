@@ -12,6 +12,7 @@ from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.render.head import head
 from graphface.nodes.render.light_of import scene_of
+from graphface.nodes.render.samples import samples
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.specular import specular
 from graphface.nodes.render.surface import rasterize
@@ -98,7 +99,8 @@ class TestSpecular:
 
     def shine(self, scene):
         estimated = 0.5 * self.SURFACE.coverage
-        return specular(self.SURFACE.normals, scene, estimated, self.SURFACE.coverage, PHOTO, self.MESH, self.SURFACE)
+        points = samples(self.SURFACE, estimated, self.SURFACE.coverage, PHOTO, self.MESH)
+        return specular(points, scene, self.SURFACE.coverage)
 
     def test_lies_between_light_and_viewer(self):
         """A light from the left makes its highlight on the left half."""

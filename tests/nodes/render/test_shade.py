@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from graphface.nodes.colour import decode_srgb
 from graphface.nodes.render.irradiance import irradiance
+from graphface.nodes.render.samples import samples
 from graphface.nodes.render.scene import DirectionalLight, HarmonicLight, Scene
 from graphface.nodes.render.shade import shade
-from graphface.nodes.types import Image
+from graphface.nodes.types import Image, Surface
 
 
 def half_ball(side=31):
@@ -33,8 +34,15 @@ def photo(encoding="srgb"):
     return Image(np.full((*MASK.shape, 3), 0.5, np.float32), encoding=encoding)
 
 
-def shaded(scene, encoding="srgb", old=OLD, mask=MASK):
-    return shade(NORMALS, scene, old.astype(np.float32), mask, photo(encoding))
+def surface(normals=NORMALS):
+    covered = normals.any(axis=2)
+    triangle = np.where(covered, 0, -1).astype(np.int32)
+    return Surface(normals, 0 * MASK, covered.astype(np.float32), triangle, 0 * normals)
+
+
+def shaded(scene, encoding="srgb", old=OLD, mask=MASK, normals=NORMALS):
+    old = old.astype(np.float32)
+    return shade(samples(surface(normals), old, mask, photo(encoding)), scene, old)
 
 
 class TestModes:
@@ -159,5 +167,5 @@ class TestHardCases:
 
     def test_no_surface(self):
         """Nothing to shade: zeros."""
-        empty = shade(NORMALS * 0, Scene(ambient=1), OLD.astype(np.float32), MASK, photo())
+        empty = shaded(Scene(ambient=1), normals=NORMALS * 0)
         assert not empty.any()

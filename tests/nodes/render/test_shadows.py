@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from graphface.nodes.render.samples import samples
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shadow_map import disc, lit_share
 from graphface.nodes.render.shadows import shadow_maps
@@ -44,9 +45,13 @@ def shares(points, places, vertices, triangles, resolution=256, lift=0.02):
     )
 
 
-def visible(mesh, light, **settings):
-    surface = rasterize(mesh, PHOTO)
-    return shadow_maps(mesh, surface, Scene.coerce({"lights": [light]}), **settings).visible[0]
+def receivers(mesh, photo=PHOTO, detail=64):
+    surface = rasterize(mesh, photo)
+    return samples(surface, surface.coverage, surface.coverage, photo, mesh, detail=detail)
+
+
+def visible(mesh, light, detail=64, **settings):
+    return shadow_maps(mesh, receivers(mesh, detail=detail), Scene.coerce({"lights": [light]}), **settings).visible[0]
 
 
 class TestLitShare:
@@ -115,7 +120,7 @@ class TestShadowMaps:
             {**LIGHT, "azimuth": 180},
             LIGHT,
         ]
-        shadows = shadow_maps(mesh, rasterize(mesh, PHOTO), Scene.coerce({"lights": lights}))
+        shadows = shadow_maps(mesh, receivers(mesh), Scene.coerce({"lights": lights}))
         assert shadows.lights == (4,)
         assert shadows.visible.shape[0] == 1
 
@@ -149,9 +154,8 @@ class TestShadowMaps:
                 UNIT * factor,
             )
             photo = Image(np.zeros((120 * factor, 120 * factor, 3), np.float32))
-            surface = rasterize(mesh, photo)
             scene = Scene.coerce({"lights": [LIGHT]})
-            mean.append(shadow_maps(mesh, surface, scene).visible[0].mean())
+            mean.append(shadow_maps(mesh, receivers(mesh, photo), scene).visible[0].mean())
         assert mean[0] == pytest.approx(mean[1], rel=0.02)
 
     def test_triangles_without_area_cast_nothing(self):

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from graphface import GraphfaceWarning
 from graphface.nodes.render.scene import Scene
-from graphface.nodes.render.spread import background, spread
+from graphface.nodes.render.spread import background, surroundings
+from graphface.nodes.render.spread import spread as spread_over
 from graphface.nodes.types import Landmarks, Surface
 
 SIDE, INTEROCULAR = 160, 40.0
@@ -32,6 +33,10 @@ def landmarks(interocular=INTEROCULAR):
 
 
 SURFACE, MASK = face()
+
+
+def spread(shading, mask, surface, points):
+    return spread_over(shading, surroundings(mask, surface, points))
 
 
 def gradient(side=SIDE):
