@@ -25,12 +25,14 @@ def gallery(
     from graphface.nodes.types import Image
     from graphface.outputs import write_output
 
+    scenes = scene or shipped_scenes()
+    for files in (photo or [], scenes):
+        _check_names(files)
+    graph = load("relight", profiles=profile or ())
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UnwritableFile(folder, error.strerror or str(error)) from None
-    graph = load("relight", profiles=profile or ())
-    scenes = scene or shipped_scenes()
     kind = graph.type_of(graph.outputs["image"])
     photos: list[Path | None] = [*photo] if photo else [None]
     for given in photos:
@@ -48,6 +50,24 @@ def gallery(
             write_output(found["image"], kind, folder / f"{name}-{path.stem}.png")
         write_picture(contact_sheet(cells, columns=columns, width=300), folder / f"{name}-sheet.png")
     print(f"wrote {len(photos) * len(scenes)} pictures and {len(photos)} sheets to {folder}/")
+
+
+def _check_names(files: list[Path]) -> None:
+    """Pictures are named after photo and scene: two of a name would overwrite each other.
+
+    Raises:
+        UsageError: two files have the same name before the suffix.
+    """
+    from graphface import UsageError
+
+    known: dict[str, Path] = {}
+    for file in files:
+        if file.stem in known:
+            raise UsageError(
+                f"{known[file.stem]} and {file}: the pictures made from one would overwrite those from the other; "
+                "rename one of the two"
+            )
+        known[file.stem] = file
 
 
 def shipped_scenes() -> list[Path]:
