@@ -21,6 +21,9 @@ from graphface.session import Session
 _ARRAYS = 5
 """Pictures of three channels that recombining must read or write: photo, albedo, detail's two parts, result."""
 
+_BEFORE = 6
+"""Edits before the measured ones: they fill what all edits share, and all memory that a session uses."""
+
 _EFFECTS = {"shadows": "shadows", "scatter": "scattering", "highlights": "highlights", "composite": "labels"}
 
 PLAIN: dict[str, dict[str, Any]] = {
@@ -51,15 +54,15 @@ def scene_costs(photo: Path | None, megapixels: float, repeats: int) -> Iterator
     named |= {path.stem: Scene.from_file(path) for path in shipped_scenes()}
     for name, scene in named.items():
         seconds, ran = [], set[str]()
-        for turn in range(repeats + 1):
-            # A hair's breadth of exposure makes each edit a new one; the first also fills what all edits share.
+        for turn in range(_BEFORE + repeats):
+            # A hair's breadth of exposure makes each edit a new one.
             session.edit(scene=scene.model_copy(update={"exposure": scene.exposure * (1 + 1e-5 * (turn + 1))}))
             start = time.perf_counter()
             result = session.render(["image"])
             seconds.append(time.perf_counter() - start)
             ran = {record.name for record in result.records if record.state == "ran"} - {"scene", "photo"}
         effects = ", ".join(label for node, label in _EFFECTS.items() if node in ran and _used(node, scene))
-        yield Cost(name, len(ran), effects or "none", 1e3 * median(seconds[1:]), _copy_time(image, repeats))
+        yield Cost(name, len(ran), effects or "none", 1e3 * median(seconds[_BEFORE:]), _copy_time(image, repeats))
 
 
 def _used(node: str, scene: Scene) -> bool:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.blur import blurred
 from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.strips import by_strips
@@ -25,10 +26,6 @@ from graphface.nodes.types import FloatArray, Landmarks, Mask, Shading, Surface
 
 Length = Annotated[float, Field(gt=0, le=10)]
 Resolution = Annotated[int, Field(ge=8, le=256)]
-
-
-_ENOUGH = 4.0
-"""Width in pixels above which a blur needs no finer copy."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +92,7 @@ def spread(shading: Shading, surroundings: Surroundings) -> Shading:
         return np.zeros_like(shading)
     small = _small(shading, surroundings)
     nearest = small.reshape(-1, *small.shape[2:]).take(surroundings.nearest, axis=0)
-    near, far = (_blurred(nearest, sigma) for sigma in (surroundings.sigma, 3 * surroundings.sigma))
+    near, far = (blurred(nearest, sigma) for sigma in (surroundings.sigma, 3 * surroundings.sigma))
     beyond = _enlarged(near + (far - near) * _like(surroundings.far, shading), weight.shape)
 
     def join(rows: slice) -> None:
@@ -188,19 +185,6 @@ def _nearest(core: NDArray[np.bool_]) -> tuple[NDArray[np.intp], FloatArray]:
     place = np.zeros(int(labels.max()) + 1, np.intp)
     place[labels[core]] = np.flatnonzero(core)
     return place[labels], np.asarray(distance, np.float32)
-
-
-def _blurred(values: FloatArray, sigma: float) -> FloatArray:
-    """A Gaussian; a wide one is made on a smaller copy, which cannot be told apart and costs a tenth."""
-    import cv2
-
-    height, width = values.shape[:2]
-    factor = min(sigma / _ENOUGH, height, width)
-    if factor > 1:
-        size = max(1, round(width / factor)), max(1, round(height / factor))
-        values, sigma = np.asarray(cv2.resize(values, size, interpolation=cv2.INTER_AREA), np.float32), _ENOUGH
-    blurred = np.asarray(cv2.GaussianBlur(values, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE), np.float32)
-    return blurred if factor <= 1 else _enlarged(blurred, (height, width))
 
 
 def _smooth_step(t: FloatArray) -> FloatArray:

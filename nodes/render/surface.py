@@ -7,6 +7,7 @@ small matrix per triangle and no interpolation error from the rasterizer's own a
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
@@ -14,7 +15,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
-from graphface.nodes.types import FloatArray, Image, Mesh, Surface
+from graphface.nodes.blur import blurred
+from graphface.nodes.strips import by_strips
+from graphface.nodes.types import Image, Mesh, Surface
 
 _VIEW_ANGLE = 0.1
 """Field of view handed to OpenCV, radians; vertices are moved beforehand so that any value gives the same picture."""
@@ -69,21 +72,56 @@ def rasterize(
     if not (seen >= 0).any():
         warn("the mesh falls between the pixels: normals, depth and coverage are empty")
         return surface
-    triangles = mesh.triangles[drawn]
-    barycentric = _barycentric(corners[drawn] - (x0, y0), area[drawn], seen)
-    if mesh.camera.nearness != 0:
-        # Equal steps in the picture are unequal steps on a tilted triangle: weigh each corner by one over its distance.
-        barycentric /= _of_pixel(np.maximum(1 - z * mesh.camera.nearness, 1e-3), seen, beyond=1)
-        barycentric /= np.maximum(_sum_of_channels(barycentric), 1e-12)
+    tables = _Tables(
+        planes=_weight_planes(corners[drawn] - (x0, y0), area[drawn]),
+        nearness=np.maximum(1 - z.T * mesh.camera.nearness, 1e-3) if mesh.camera.nearness != 0 else None,
+        normals=np.ascontiguousarray(mesh.normals[mesh.triangles[drawn]].transpose(1, 2, 0), np.float32),
+        z=np.ascontiguousarray(z.T, np.float32),
+    )
+    normals = np.zeros((*size, 3), np.float32)
 
-    window = np.s_[y0:y1, x0:x1]
-    normals = sum(barycentric[..., k, None] * _of_pixel(mesh.normals[triangles[:, k]], seen) for k in range(3))
-    surface.normals[window] = _smoothed(normals, seen >= 0, smoothing * mesh.interocular)
-    surface.depth[window] = np.einsum("hwk,hwk->hw", barycentric, _of_pixel(z, seen))
-    surface.coverage[window] = seen >= 0
-    surface.triangle[window] = _of_pixel(drawn.astype(np.int32), seen, beyond=-1)
-    surface.barycentric[window] = barycentric
+    def look(rows: slice) -> None:
+        """All maps at some rows of the window."""
+        row, x = np.nonzero(seen[rows] >= 0)
+        y = row + rows.start
+        triangle = seen.reshape(-1).take(y * size[1] + x)
+        weights = _barycentric(tables, triangle, x, y)
+        normal = [_mixed(weights, tables.normals[:, axis], triangle) for axis in range(3)]
+        normals.reshape(-1, 3)[y * size[1] + x] = np.stack(normal, axis=1)
+        place = (y + y0) * width + (x + x0)
+        surface.depth.reshape(-1)[place] = _mixed(weights, tables.z, triangle)
+        surface.coverage.reshape(-1)[place] = 1
+        surface.triangle.reshape(-1)[place] = drawn.take(triangle)
+        surface.barycentric.reshape(-1, 3)[place] = np.stack(weights, axis=1)
+
+    by_strips(look, (*size, 8))
+    smooth = normals
+    if smoothing * mesh.interocular > 0.3:  # a narrower Gaussian is a single pixel
+        # Dividing by the blurred coverage is left to the normalization: it does not turn a vector.
+        smooth = blurred(normals, smoothing * mesh.interocular)
+
+    def normalize(rows: slice) -> None:
+        part = smooth[rows]
+        length = np.sqrt(_sum_of_channels(np.square(part)))
+        inside = seen[rows] >= 0
+        np.multiply(part, inside[..., None] / np.maximum(length, 1e-6), out=surface.normals[y0:y1, x0:x1][rows])
+
+    by_strips(normalize, normals.shape)
     return surface
+
+
+@dataclass(frozen=True)
+class _Tables:
+    """What is known of T triangles, one row for each number, since short rows are slow to look up.
+
+    `planes` (2, 3, T): what the second and the third corner's weights are over the window's x, y and 1. Of each corner
+    the `normals` (3, 3, T), the `z` (3, T) and the distance to the camera, `nearness` (3, T); None: all are equal.
+    """
+
+    planes: NDArray[np.float64]
+    nearness: NDArray[np.floating[Any]] | None
+    normals: NDArray[np.float32]
+    z: NDArray[np.float32]
 
 
 def _nothing_seen(height: int, width: int) -> Surface:
@@ -161,43 +199,43 @@ def _visible_triangles(
     return np.rint(color[..., 0] * count).astype(np.int32) - 1
 
 
-def _barycentric(
-    corners: NDArray[np.float64], area: NDArray[np.float64], seen: NDArray[np.int32]
-) -> NDArray[np.float32]:
-    """Barycentric coordinates H x W x 3 of each pixel's centre in the triangle it sees; 0 where it sees none."""
+def _weight_planes(corners: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weight of the second and the third corner = plane . (x, y, 1), per triangle: (2, 3, T)."""
     first, b, c = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     scale = 1 / area[:, None]  # triangles without area were left out before
-    # Weight of a corner = slope . (pixel - first corner), here as slope . pixel + offset.
     slopes = np.stack([np.stack([c[:, 1], -c[:, 0]], 1), np.stack([-b[:, 1], b[:, 0]], 1)], axis=1) * -scale[..., None]
     offsets = -np.einsum("tkx,tx->tk", slopes, first)  # float64: differences of large numbers
-    y, x = np.ogrid[: seen.shape[0], : seen.shape[1]]
-    weights = np.zeros((*seen.shape, 3), np.float32)
-    for k in range(2):
-        slope_x, slope_y, offset = (_of_pixel(v, seen) for v in (slopes[:, k, 0], slopes[:, k, 1], offsets[:, k]))
-        weight = slope_x * x + slope_y * y + offset
-        weights[..., k + 1] = np.clip(weight, 0, 1)
-    weights[..., 0] = np.clip(1 - weights[..., 1] - weights[..., 2], 0, 1) * (seen >= 0)
-    weights /= np.maximum(_sum_of_channels(weights), 1e-12)
-    return weights
+    return np.ascontiguousarray(np.concatenate([slopes, offsets[..., None]], axis=2).transpose(1, 2, 0))
 
 
-def _smoothed(normals: FloatArray, covered: NDArray[np.bool_], blur: float) -> FloatArray:
-    """Unit normals, averaged over a Gaussian of `blur` pixels within what is covered; 0 elsewhere."""
-    import cv2
+def _barycentric(
+    tables: _Tables, triangle: NDArray[np.int32], x: NDArray[np.intp], y: NDArray[np.intp]
+) -> list[NDArray[np.float32]]:
+    """Barycentric coordinates, three of (n,), of pixel centres in the triangles they see."""
+    weights = [np.zeros(0, np.float32)]
+    for slope_x, slope_y, offset in tables.planes:
+        weight = slope_x.take(triangle) * x + slope_y.take(triangle) * y + offset.take(triangle)
+        weights.append(np.clip(weight, 0, 1).astype(np.float32))
+    weights[0] = np.clip(1 - weights[1] - weights[2], 0, 1)
+    if tables.nearness is not None:
+        # Equal steps in the picture are unequal steps on a tilted triangle: weigh each corner by one over its distance.
+        weights = [
+            (w / near.take(triangle)).astype(np.float32) for w, near in zip(weights, tables.nearness, strict=True)
+        ]
+    total = np.maximum(weights[0] + weights[1] + weights[2], 1e-12)
+    return [weight / total for weight in weights]
 
-    if blur > 0.3:  # a narrower Gaussian is a single pixel
-        # Dividing by the blurred coverage is left to the normalization: it does not turn a vector.
-        normals = np.asarray(cv2.GaussianBlur(normals, (0, 0), blur, borderType=cv2.BORDER_REPLICATE), np.float32)
-    length = np.sqrt(_sum_of_channels(np.square(normals)))
-    return np.where(covered[..., None], normals / np.maximum(length, 1e-6), 0)
+
+def _mixed(
+    weights: list[NDArray[np.float32]], of_corner: NDArray[np.float32], triangle: NDArray[np.int32]
+) -> NDArray[np.float32]:
+    """A number of each corner (3, T), interpolated at n points."""
+    return sum(
+        (weight * values.take(triangle) for weight, values in zip(weights, of_corner, strict=True)),
+        start=np.zeros(1, np.float32),
+    )
 
 
 def _sum_of_channels(values: NDArray[np.float32]) -> NDArray[np.float32]:
-    """H x W x 3 to H x W x 1; several times faster than `sum` over so short an axis."""
+    """(..., 3) to (..., 1); several times faster than `sum` over so short an axis."""
     return values[..., 0:1] + values[..., 1:2] + values[..., 2:3]
-
-
-def _of_pixel(values: NDArray[Any], seen: NDArray[np.int32], beyond: float = 0) -> NDArray[Any]:
-    """The value, of one a triangle, of the triangle that each pixel sees; `beyond` where it sees none."""
-    table = np.concatenate([values, np.full((1, *values.shape[1:]), beyond, values.dtype)])
-    return table.take(seen, axis=0, mode="wrap")
