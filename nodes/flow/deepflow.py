@@ -21,7 +21,7 @@ def deepflow(
     landmarks: Landmarks,
     *,
     resolution: Resolution = 60,
-    smoothing: Length = 0.06,
+    smoothing: Length = 0.1,
     tolerance: Length = 0.03,
     reach: Length = 0.15,
 ) -> Correspondence:

@@ -20,8 +20,8 @@ def dis(
     correspondence: Correspondence,
     landmarks: Landmarks,
     *,
-    resolution: Resolution = 100,
-    smoothing: Length = 0.06,
+    resolution: Resolution = 140,
+    smoothing: Length = 0.1,
     tolerance: Length = 0.03,
     reach: Length = 0.15,
 ) -> Correspondence:

@@ -51,7 +51,7 @@ class Refinement:
     resolution: int = 100
     window: float = 0.1
     tolerance: float = 0.03
-    smoothing: float = 0.06
+    smoothing: float = 0.1
     reach: float = 0.15
 
 
@@ -63,15 +63,37 @@ def refined(
     flow: Flow,
     settings: Refinement,
 ) -> Correspondence:
-    """The correspondence moved by a flow where that makes the two faces match; the same one where it does not."""
-    import cv2
+    """The correspondence moved by a flow where that makes the two faces match; the same one where it does not.
 
+    The mirror image that stands in for what the reference hides is another picture of the face, and is matched by itself.
+    """
     unit = landmarks.interocular
-    window = _face_window(correspondence, margin=round(0.1 * unit))
+    window = _face_window(correspondence.inside, margin=round(0.1 * unit))
     if window is None or unit < 8:
         if unit < 8:
             warn(f"flow: eyes are {unit:.1f} pixels apart, too few to match anything; the meshes alone decide")
         return correspondence
+    direct = replace(correspondence, mirrored=None, mirrored_valid=None)
+    places = _refined_places(photo, reference, direct, window, unit, flow, settings)
+    mirrored, valid = correspondence.mirrored, correspondence.mirrored_valid
+    if mirrored is not None and valid is not None and (valid > 0.5).any():
+        other = replace(direct, places=mirrored, valid=valid)
+        mirrored = _refined_places(photo, reference, other, window, unit, flow, settings)
+    return replace(correspondence, places=places, mirrored=mirrored)
+
+
+def _refined_places(
+    photo: Image,
+    reference: Image,
+    correspondence: Correspondence,
+    window: tuple[slice, slice],
+    unit: float,
+    flow: Flow,
+    settings: Refinement,
+) -> FloatArray:
+    """The places H x W x 2, moved within the window; `unit` is the inter-ocular distance in pixels."""
+    import cv2
+
     rows, columns = window
     scale = min(1.0, settings.resolution / unit)
     height, width = (max(8, round((s.stop - s.start) * scale)) for s in window)
@@ -106,7 +128,7 @@ def refined(
     moved = _moved(np.dstack([places[rows, columns] * known[..., None], known]), shift)
     sure = moved[..., 2:] > 0.999  # beyond the mesh's edge there is nothing to move to
     places[rows, columns] = np.where(sure, moved[..., :2], places[rows, columns])
-    return replace(correspondence, places=places)
+    return places
 
 
 def _log_intensity(pixels: FloatArray) -> FloatArray:
@@ -159,13 +181,13 @@ def _smooth(values: FloatArray, sigma: float) -> FloatArray:
     return np.asarray(blurred, np.float32)
 
 
-def _face_window(correspondence: Correspondence, margin: int) -> tuple[slice, slice] | None:
+def _face_window(inside: FloatArray, margin: int) -> tuple[slice, slice] | None:
     """The box around the mesh, or None where there is no mesh."""
-    rows = np.flatnonzero(correspondence.inside.any(axis=1))
-    columns = np.flatnonzero(correspondence.inside.any(axis=0))
+    rows = np.flatnonzero(inside.any(axis=1))
+    columns = np.flatnonzero(inside.any(axis=0))
     if rows.size == 0:
         return None
-    height, width = correspondence.inside.shape
+    height, width = inside.shape
     y0, y1 = max(0, rows[0] - margin), min(height, rows[-1] + 1 + margin)
     x0, x1 = max(0, columns[0] - margin), min(width, columns[-1] + 1 + margin)
     return slice(int(y0), int(y1)), slice(int(x0), int(x1))

@@ -25,6 +25,12 @@ _FLOOR = 0.05
 _MOST = 2.0
 """Largest magnitude of the factor's logarithm."""
 
+_WHOLE = 0.75
+"""Share of a brow that must be usable for any of it to be."""
+
+_TEXTURE = np.float32(0.08)
+"""What differs by less from its surroundings is texture, which brighter skin shows no stronger."""
+
 _STRIP = 1 << 15
 """Values worked on at a time, few enough for the processor's cache."""
 
@@ -35,15 +41,20 @@ def core(
     skin: Mask,
     correspondence: Correspondence,
     landmarks: Landmarks,
+    features: Features | None = None,
+    in_front: Mask | None = None,
     *,
     shrink: Annotated[float, Field(ge=0, le=1)] = 0.03,
     softness: Annotated[float, Field(ge=0, le=1)] = 0.06,
 ) -> Mask:
     """Where the painted face is taken as it is: inside the mesh, off its rim, on skin that the reference shows.
 
+    A brow is painted whole or not at all: half of the reference's beside half of the input's makes two.
+
     Args:
         mask: a face mask of the input; where it is 0 nothing is core.
-        skin: the input's skin. shrink, softness: width of the rim that is left out and of the way to it, in
+        skin: the input's skin. features: the input's. in_front: what is in front of its skin.
+        shrink, softness: width of the rim that is left out and of the way to it, in
             inter-ocular distances.
     """
     import cv2
@@ -51,6 +62,8 @@ def core(
     unit = max(landmarks.interocular, 1e-3)
     usable = (correspondence.inside > 0) & (correspondence.known > 0.5) & (skin > 0.5) & (mask > 0)
     usable = _without_holes(usable, 0.3 * unit)
+    if features is not None:
+        usable &= ~_cut(features.brows > 0.1, usable)
     if not usable.any():
         warn("makeup.core: no pixel of the input's face has a counterpart in the reference; nothing is painted")
         return np.zeros_like(mask)
@@ -61,6 +74,8 @@ def core(
     t = np.clip((depth - shrink * unit) / max(softness * unit, 1.0), 0, 1)
     inside = np.zeros(mask.shape, np.float32)
     inside[window] = t * t * (3 - 2 * t)
+    if in_front is not None:
+        inside *= 1 - in_front
     return inside
 
 
@@ -73,6 +88,17 @@ def _without_holes(usable: NDArray[np.bool_], width: float) -> NDArray[np.bool_]
     small[0] = False
     filled: NDArray[np.bool_] = usable | small[label]
     return filled
+
+
+def _cut(parts: NDArray[np.bool_], usable: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Those parts too little of which is usable."""
+    import cv2
+
+    count, label = cv2.connectedComponents(parts.astype(np.uint8), connectivity=8)
+    total, left = (np.bincount(label[where], minlength=count) for where in (parts, parts & usable))
+    cut = left < _WHOLE * total
+    cut[0] = False
+    return np.asarray(cut[label])
 
 
 @node("makeup.boundary")
@@ -116,13 +142,20 @@ def boundary(
     change[known & ~bare] = around[known & ~bare]  # lips and brows have no place in the ring
     continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
     factor = np.asarray(cv2.resize(np.exp(continued), core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
+    broad = small(photo.pixels)
+    broad = cv2.GaussianBlur(broad, (0, 0), max(0.03 * unit, 0.5), borderType=cv2.BORDER_REPLICATE)
+    broad = np.asarray(cv2.resize(broad, core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
     # What shines more than skin does is no skin colour: it moves with the skin, and is not multiplied.
     matte = np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32)
     pixels = np.empty_like(photo.pixels)
     step = max(1, _STRIP // max(1, 3 * photo.width))
     for rows in (slice(top, top + step) for top in range(0, photo.height, step)):
         before = photo.pixels[rows]
-        change = (np.minimum(before, matte) + np.float32(_FLOOR)) * (factor[rows] - 1)
+        more = factor[rows] - 1
+        # Where it gets darker everything in the pixel does; where it gets brighter, pores and grain stay what they are.
+        off = broad[rows] - before
+        skin = before + off * np.clip(2 - np.abs(off) / _TEXTURE, 0, 1) * (more > 0)
+        change = (np.minimum(skin, matte) + np.float32(_FLOOR)) * more
         beyond = before + _limited(change, before)
         pixels[rows] = beyond + core[rows, :, None] * (painted.pixels[rows] - beyond)
     return photo.with_pixels(pixels)
@@ -131,7 +164,7 @@ def boundary(
 def _limited(change: FloatArray, pixels: FloatArray) -> FloatArray:
     """The change, bent to stay within the room that each value has left; small changes pass as they are."""
     room = np.maximum(np.where(change > 0, 1 - pixels, pixels), np.float32(1e-4))
-    return np.asarray(change / np.sqrt(1 + np.square(change / room)), np.float32)
+    return np.asarray(change / np.sqrt(np.sqrt(1 + np.square(np.square(change / room)))), np.float32)
 
 
 def _averaged(change: FloatArray, bare: NDArray[np.bool_], reach: float) -> FloatArray:

@@ -30,7 +30,7 @@ def mesh(
     pins: Pins | None = None,
     *,
     hidden: Hidden = "mirror",
-    facing: Annotated[float, Field(gt=0, lt=1)] = 0.25,
+    facing: Annotated[float, Field(gt=0, lt=1)] = 0.4,
     pin_reach: Annotated[float, Field(gt=0, le=5)] = 0.3,
 ) -> Correspondence:
     """Where each pixel's point of the input's face lies in the reference.

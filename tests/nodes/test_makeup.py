@@ -168,6 +168,28 @@ class TestCoverage:
         assert (covered <= mask + 1e-6).all()
 
 
+class TestCore:
+    def test_a_brow_is_whole_or_not_there(self, face):
+        """Where hair hides half of a brow of the reference, the whole brow stays the input's; the other is painted."""
+        _, landmarks, mesh, surface, found = face
+        ones = np.ones((200, 200), np.float32)
+        half = ones.copy()
+        half[:, : int(landmarks.points[105, 0])] = 0
+        whole = correspond(surface, mesh, surface, mesh, ones, half, hidden="input")
+        inner = core(ones, ones, whole, landmarks, found)
+        brows = found.brows > 0.5
+        left = np.arange(200) < landmarks.points[168, 0]
+        assert inner[brows & left].max() == 0
+        assert inner[brows & ~left].mean() > 0.5
+
+    def test_nothing_is_painted_on_what_is_in_front(self, face):
+        """Where something is in front of the skin, the core ends."""
+        _, landmarks, mesh, surface, found = face
+        ones = np.ones((200, 200), np.float32)
+        same = correspond(surface, mesh, surface, mesh)
+        assert core(ones, ones, same, landmarks, found, ones).max() == 0
+
+
 class TestBoundary:
     def test_no_change_stays_none(self, face):
         """Where painting changed nothing, nothing changes beyond it either."""
@@ -185,6 +207,18 @@ class TestBoundary:
         layer = boundary(photo, painted, inner, found, landmarks).pixels
         np.testing.assert_allclose(layer, 0.3, atol=0.06)
         assert np.abs(np.diff(layer[..., 0], axis=0)).max() < 0.03
+
+    def test_brighter_skin_is_not_coarser(self, face, rng):
+        """Beyond the painted face grain keeps its strength where the tone gets brighter: detail is added, not scaled."""
+        _, landmarks, mesh, surface, found = face
+        ones = np.ones((200, 200), np.float32)
+        grain = 0.01 * rng.standard_normal((200, 200, 1)).astype(np.float32).repeat(3, axis=2)
+        photo, painted = Image(0.25 + grain), Image(0.6 + grain)
+        inner = core(ones, ones, correspond(surface, mesh, surface, mesh), landmarks)
+        layer = boundary(photo, painted, inner, found, landmarks).pixels
+        beyond = inner == 0
+        assert layer[beyond].mean() > 0.5
+        assert np.diff(layer, axis=0)[beyond[1:]].std() < 1.3 * np.diff(photo.pixels, axis=0)[beyond[1:]].std()
 
     def test_nothing_in_common_is_told(self, face):
         """Without any known pixel nothing is painted, and the photo comes back."""

@@ -1,0 +1,95 @@
+"""The albedo as paint has it: the redness of creases and the paleness of shine given back to the detail map.
+
+The paper's albedo is "large blotches of constant color", and fine relief is left to the detail map. Where shading is
+intensity that does not come by itself: light that is caught in a crease is reddened, and shine is white, so colour over
+intensity shows both. When detail of one face is put onto the albedo of another, such colours would stay behind without
+the darkness or the light that they belong to: an orange rim where a nostril was, a grey patch where a cheek shone.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.strips import by_strips
+from graphface.nodes.types import Albedo, FloatArray, Landmarks, Mask, Shading
+
+_LEAST_LIGHT = 0.02
+_LEAST_TRUST = np.float32(1e-3)
+_FAR = 0.05
+"""Weight of the wide average beside the near one: it decides where the near one has seen nothing to be trusted."""
+
+
+@node("makeup.pigment")
+def pigment(
+    albedo: Albedo,
+    shading: Shading,
+    estimated: Shading,
+    skin: Mask,
+    landmarks: Landmarks,
+    *,
+    dark: Annotated[float, Field(gt=0, le=1)] = 0.85,
+    bright: Annotated[float, Field(ge=1, le=10)] = 1.1,
+    reach: Annotated[float, Field(gt=0, le=1)] = 0.08,
+    resolution: Annotated[int, Field(ge=8, le=256)] = 64,
+) -> Albedo:
+    """The albedo, in creases and shine that of the skin around them.
+
+    Args:
+        albedo, shading: of an intrinsic method. estimated: the light's shading, spread over the picture.
+        skin: where colours around are taken from.
+        dark: how much darker than its surroundings, as a factor, a pixel begins to be a crease; at half of that it is
+            one. bright: how much brighter than the estimated light it begins to shine; at half as much again it does.
+        reach: of the average around, in inter-ocular distances; lips and stripes are broader.
+        resolution: pixels per inter-ocular distance of the copy on which averages are taken.
+    """
+    import cv2
+
+    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
+    unit = max(landmarks.interocular * scale, 1e-3)
+    full = (albedo.shape[1], albedo.shape[0])
+    size = (max(1, round(full[0] * scale)), max(1, round(full[1] * scale)))
+
+    def small(values: FloatArray) -> FloatArray:
+        return np.asarray(cv2.resize(values, size, interpolation=cv2.INTER_AREA), np.float32)
+
+    def large(values: FloatArray) -> FloatArray:
+        return np.asarray(cv2.resize(values, full, interpolation=cv2.INTER_LINEAR), np.float32)
+
+    light = _grey(estimated)
+    brightness, lit, colour = small(_grey(shading)), small(light), small(albedo)
+    usual = _smooth(brightness, 1.5 * reach * unit)
+    weight = (np.square(_trusted(brightness, usual, lit, dark, bright)) + _LEAST_TRUST) * (small(skin) + _LEAST_TRUST)
+    near, far = (_smooth(np.dstack([colour * weight[..., None], weight]), r * reach * unit) for r in (1, 4))
+    mean = near + np.float32(_FAR) * far
+    around = large(np.asarray(mean[..., :3] / np.maximum(mean[..., 3:], np.float32(1e-9)), np.float32))
+    usual = large(usual)
+    steady = np.empty_like(albedo)
+
+    def strip(rows: slice) -> None:
+        trust = _trusted(_grey(shading[rows]), usual[rows], light[rows], dark, bright)
+        steady[rows] = around[rows] + cv2.cvtColor(trust, cv2.COLOR_GRAY2RGB) * (albedo[rows] - around[rows])
+
+    by_strips(strip, albedo.shape)
+    return steady
+
+
+def _trusted(brightness: FloatArray, usual: FloatArray, light: FloatArray, dark: float, bright: float) -> FloatArray:
+    """1 where a pixel's colour is its pigment's, 0 in the depth of a crease and in full shine."""
+    least = np.float32(_LEAST_LIGHT)
+    crease = (brightness + least) / (usual + least) * np.float32(2 / dark) - 1
+    shine = 3 - (brightness + least) / (light + least) * np.float32(2 / bright)
+    return np.asarray(np.clip(np.minimum(crease, shine), 0, 1), np.float32)
+
+
+def _grey(values: Shading) -> FloatArray:
+    return values if values.ndim == 2 else np.asarray(values.mean(axis=2, dtype=np.float32))
+
+
+def _smooth(values: FloatArray, sigma: float) -> FloatArray:
+    import cv2
+
+    return np.asarray(cv2.GaussianBlur(values, (0, 0), max(sigma, 0.5), borderType=cv2.BORDER_REPLICATE), np.float32)
