@@ -7,7 +7,6 @@ import pytest
 
 from graphface import DocumentError, Graph, Registry, UnreadableFile, load
 from graphface.errors import Problem
-from graphface.flags import read_flag
 
 Write = Callable[..., Path]
 
@@ -391,36 +390,6 @@ class TestPrecedence:
     def test_default(self, write: Write, opened: Callable[..., Graph]) -> None:
         """What nobody sets is the operator's default."""
         assert setting(opened(write("g.yaml", "nodes: {x: {use: toy.number}}\n")), "x", "value") == 1
-
-
-class TestFlags:
-    @pytest.mark.parametrize(
-        ("text", "expected"),
-        [
-            ("a.b=1", ("a.b", 1)),
-            ("a/b.c=1e0", ("a/b.c", 1.0)),
-            ("a.b=on", ("a.b", "on")),
-            ("a.b=", ("a.b", None)),
-            ("a.b=x=y", ("a.b", "x=y")),
-            ("a.b='1'", ("a.b", "1")),
-            ("a.b=[1, x]", ("a.b", [1, "x"])),
-            ("a.b={k: 1}", ("a.b", {"k": 1})),
-        ],
-    )
-    def test_value(self, text: str, expected: tuple[str, object]) -> None:
-        """The value of a flag is read as YAML would."""
-        assert read_flag(text, "--set") == expected
-
-    @pytest.mark.parametrize(
-        "text", ["a.b", "=1", "a b=1", "a..b=1", "a.b=[1", "a.b={k: 1, k: 2}", "a.b=[1]\nx: 2: 3", "a.b='x"]
-    )
-    def test_refused(self, text: str) -> None:
-        """A flag that is not name=value is refused with the flag as its place."""
-        with pytest.raises(DocumentError) as caught:
-            read_flag(text, "--set")
-        place = caught.value.problems[0].place
-        assert place is not None
-        assert place.source.name == "--set"
 
 
 class TestAllAtOnce:
