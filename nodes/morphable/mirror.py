@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from graphface.nodes.morphable.model import MorphableModel
 
+_EXACT_TREE = 4
+"""FLANN_INDEX_KDTREE_SINGLE, the one of its trees that always finds the nearest."""
+
 _TOLERANCE = 0.01
 """How far, in eye distances, a vertex may lie from its partner's mirror image."""
 
@@ -16,11 +19,14 @@ _TOLERANCE = 0.01
 @lru_cache(maxsize=16)
 def mirror_vertices(model: MorphableModel) -> NDArray[np.int32] | None:
     """Partners (V,), or None where the mean face is not symmetric about x = 0."""
-    from scipy.spatial import cKDTree
+    import cv2
 
-    mean = model.mean.astype(np.float64)
-    distance, partner = cKDTree(mean).query(mean * (-1, 1, 1))
+    # OpenCV's tree, since it is loaded anyway: importing scipy's takes longer than all of a fit.
+    mean = np.ascontiguousarray(model.mean, np.float32)
+    tree = cv2.flann_Index(mean, {"algorithm": _EXACT_TREE})
+    found, squared = tree.knnSearch(mean * np.float32([-1, 1, 1]), 1, params={})
+    partner = found[:, 0]
     paired = partner[partner] == np.arange(len(mean))
-    if distance.max() > _TOLERANCE or not paired.all():
+    if squared.max() > _TOLERANCE**2 or not paired.all():
         return None
     return np.asarray(partner, np.int32)
