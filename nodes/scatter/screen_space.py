@@ -13,6 +13,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.scatter.change import smoothed_change
 from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
@@ -76,19 +77,20 @@ def _along(change: FloatArray, inside: FloatArray, depth: FloatArray, sigma: flo
     """A Gaussian along rows, then along columns; a tap across a step in depth counts as the middle instead."""
     reach = min(max(1, round(2.5 * sigma)), *(max(n - 1, 0) for n in inside.shape)) if min(inside.shape) > 1 else 0
     for axis in (1, 0):
-        total = change.copy()
-        sums = 1.0
+        # The border repeats.
+        margin = [(reach, reach) if n == axis else (0, 0) for n in range(2)]
+        wide_inside, wide_depth = (np.pad(map_, margin, mode="edge") for map_ in (inside, depth))
+        wide_change = np.pad(change, [*margin, (0, 0)], mode="edge")
+        moved, sums = np.zeros_like(change), 1.0
         for step in range(1, reach + 1):
-            weight = float(np.exp(-step * step / (2 * sigma * sigma)))
-            for shift in (step, -step):
-                kept = _shifted(inside, shift, axis) * np.maximum(1 - np.abs(_shifted(depth, shift, axis) - depth), 0)
-                total += weight * (change + kept[..., None] * (_shifted(change, shift, axis) - change))
-                sums += weight
-        change = total / np.float32(sums)
+            weight = np.float32(np.exp(-step * step / (2 * sigma * sigma)))
+            for start in (reach - step, reach + step):
+                tap = tuple(slice(start, start + inside.shape[n]) if n == axis else slice(None) for n in range(2))
+                kept = np.abs(wide_depth[tap] - depth)
+                np.maximum(1 - kept, 0, out=kept)
+                kept *= wide_inside[tap]
+                kept *= weight
+                moved += in_three_channels(kept) * (wide_change[tap] - change)
+                sums += float(weight)
+        change = change + moved / np.float32(sums)
     return change
-
-
-def _shifted(values: FloatArray, shift: int, axis: int) -> FloatArray:
-    """The neighbour at `shift` along an axis; the border repeats."""
-    index = np.clip(np.arange(values.shape[axis]) + shift, 0, values.shape[axis] - 1)
-    return values.take(index, axis=axis)
