@@ -65,7 +65,7 @@ def refined(
 ) -> Correspondence:
     """The correspondence moved by a flow where that makes the two faces match; the same one where it does not.
 
-    The mirror image that stands in for what the reference hides is another picture of the face, and is matched by itself.
+    The mirror image that stands in for what the reference hides is another picture of the face, matched by itself.
     """
     unit = landmarks.interocular
     window = _face_window(correspondence.inside, margin=round(0.1 * unit))

@@ -43,6 +43,7 @@ def core(
     landmarks: Landmarks,
     features: Features | None = None,
     in_front: Mask | None = None,
+    shown: Mask | None = None,
     *,
     shrink: Annotated[float, Field(ge=0, le=1)] = 0.03,
     softness: Annotated[float, Field(ge=0, le=1)] = 0.06,
@@ -54,6 +55,7 @@ def core(
     Args:
         mask: a face mask of the input; where it is 0 nothing is core.
         skin: the input's skin. features: the input's. in_front: what is in front of its skin.
+        shown: the reference's skin, warped to the input: what both hide corresponds, and is not painted all the same.
         shrink, softness: width of the rim that is left out and of the way to it, in
             inter-ocular distances.
     """
@@ -61,6 +63,8 @@ def core(
 
     unit = max(landmarks.interocular, 1e-3)
     usable = (correspondence.inside > 0) & (correspondence.known > 0.5) & (skin > 0.5) & (mask > 0)
+    if shown is not None:
+        usable &= shown > 0.5
     usable = _without_holes(usable, 0.3 * unit)
     if features is not None:
         usable &= ~_cut(features.brows > 0.1, usable)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import node
-from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
+from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Mask, Shading
 from graphface.nodes.warp.correspondence import Correspondence
 
 _LARGEST_CONDITION = 1.5
@@ -25,6 +25,12 @@ def photo(reference: Image, correspondence: Correspondence) -> Image:
 def albedo(reference: Albedo, correspondence: Correspondence) -> Albedo:
     """The reference's albedo at the input's pixels; see `fetched`."""
     return fetched(reference, correspondence)
+
+
+@node("warp.mask")
+def mask(reference: Mask, correspondence: Correspondence) -> Mask:
+    """A mask of the reference at the input's pixels, 0..1; see `fetched`."""
+    return np.asarray(np.clip(fetched(reference, correspondence), 0, 1), np.float32)
 
 
 @node("warp.shading")

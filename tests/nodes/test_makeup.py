@@ -209,7 +209,7 @@ class TestBoundary:
         assert np.abs(np.diff(layer[..., 0], axis=0)).max() < 0.03
 
     def test_brighter_skin_is_not_coarser(self, face, rng):
-        """Beyond the painted face grain keeps its strength where the tone gets brighter: detail is added, not scaled."""
+        """Beyond the painted face grain keeps its strength where the tone gets brighter: it is added, not scaled."""
         _, landmarks, mesh, surface, found = face
         ones = np.ones((200, 200), np.float32)
         grain = 0.01 * rng.standard_normal((200, 200, 1)).astype(np.float32).repeat(3, axis=2)
