@@ -28,6 +28,8 @@ Region = Literal[
 Strength = Annotated[float, Field(ge=0, le=2)]
 Scale = Annotated[float, Field(gt=0, le=2)]
 
+_LEAST_ALBEDO = np.float32(0.05)
+
 REGIONS: tuple[Region, ...] = Region.__args__  # type: ignore[attr-defined]
 
 
@@ -38,11 +40,13 @@ def mask(
     features: Features | None = None,
     skin: Mask | None = None,
     given: Mask | None = None,
+    paint: Mask | None = None,
     *,
     take: tuple[Region, ...] = REGIONS,
     strength: Strength = 1.0,
     strengths: dict[Region, Strength] = {},  # noqa: B006 - pydantic copies it
     openings: Strength = 0.0,
+    painted: Strength = 0.0,
 ) -> Mask:
     """How much of the reference's detail each pixel gets.
 
@@ -51,6 +55,7 @@ def mask(
         features: the input's; `openings` of its eyes and mouth get that share (a gaze and teeth are no detail of skin).
         skin: where the input's detail may be changed; hair in front of the face is not skin.
         given: a user's own mask, multiplied on top.
+        paint: where the reference is painted (`transfer.paint`); `painted` of that gets this share.
         take: which regions; none leaves the photo as it is. Left and right are the person's own.
         strength: of all; `strengths`: of single regions, in its place. Above 1 detail is exaggerated.
 
@@ -65,10 +70,43 @@ def mask(
     total *= correspondence.known * correspondence.inside
     if features is not None:
         total *= 1 - np.maximum(features.eyes, features.mouth) * np.float32(1 - min(openings, 1))
+    if paint is not None:
+        total *= 1 - paint * np.float32(1 - min(painted, 1))
     for factor in (skin, given):
         if factor is not None:
             total *= np.clip(factor, 0, 1)
     return total
+
+
+@node("transfer.paint")
+def paint(
+    albedo: Albedo,
+    reference: Albedo,
+    mask: Mask,
+    landmarks: Landmarks,
+    *,
+    faint: Annotated[float, Field(ge=0, le=2)] = 0.2,
+    full: Annotated[float, Field(gt=0, le=2)] = 0.4,
+) -> Mask:
+    """Where the reference is another colour than the same place of the input, each measured by its own skin.
+
+    Lipstick darkens what it lies on, and so does a drawn moon: that is no relief, and colours stay the input's.
+
+    Args:
+        albedo, reference: the input's, and the reference's warped to it, creases and shine included.
+        mask: the faces' common part, over which the colour of the skin is the median.
+        faint, full: difference of colour, the skin's being 1, at which paint begins and is certain.
+    """
+    import cv2
+
+    where = mask > 0.5
+    if not where.any():
+        return np.zeros_like(mask)
+    sample = max(1, int(where.sum()) // 20000)
+    own, other = (v / np.maximum(np.median(v[where][::sample], axis=0), _LEAST_ALBEDO) for v in (albedo, reference))
+    apart = np.abs(own - other).max(axis=2).astype(np.float32)
+    apart = cv2.GaussianBlur(apart, (0, 0), max(0.02 * landmarks.interocular, 0.5))
+    return np.asarray(np.clip((apart - faint) / max(full - faint, 1e-3), 0, 1) * (mask > 0), np.float32)
 
 
 @node("transfer.detail")

@@ -280,7 +280,7 @@ def makeup(
 
     scored = makeup_truth(data, out, swaps=swaps, intrinsic=intrinsic)
     rows = [(s.method, f"{s.psnr:.2f}", f"{s.ssim:.3f}", f"{s.milliseconds:.0f}") for s in scored]
-    print_table(("method", ">PSNR dB", ">SSIM", ">milliseconds"), rows)
+    print_table(("method", ">PSNR dB", ">SSIM", ">CPU ms"), rows)
 
 
 @app.command()
@@ -303,12 +303,13 @@ def transfer(
     rows: list[tuple[str, ...]] = []
     for found in criteria(inputs, others):
         if not isinstance(found, Criteria):
-            rows.append((*found, "", "", "", ""))
+            rows.append((*found, *[""] * 5))
             continue
-        figures = (100 * found.shift, found.similarity, found.seam, found.albedo_before, found.albedo_after)
+        shift, floor = 100 * found.shift, 100 * found.floor
+        figures = (shift, floor, found.similarity, found.seam, found.albedo_before, found.albedo_after)
         rows.append((found.photo, found.reference, *(f"{figure:.3f}" for figure in figures)))
-    headers = (">landmark shift, % of eyes", ">similarity", ">seam", ">albedo before", ">albedo after")
-    print_table(("photo", "reference", *headers), rows)
+    shifts = (">landmark shift, % of eyes", ">of recolouring alone")
+    print_table(("photo", "reference", *shifts, ">similarity", ">seam", ">albedo before", ">albedo after"), rows)
 
 
 def _means(figures: Sequence[object], measures: Iterable[str]) -> list[str]:

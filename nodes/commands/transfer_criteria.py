@@ -10,11 +10,21 @@ from typing import Any
 import numpy as np
 
 from graphface import Evaluator, GraphfaceError, MemoryTier, load
+from graphface.nodes.commands.transfer_truth import reinhard
 from graphface.nodes.makeup.features import EYES, LIPS, MOUTH, NOSE, Features
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
 
 _FEATURE_POINTS = sorted({*EYES[0], *EYES[1], *LIPS, *MOUTH, *NOSE})
-_ASKED = ("image", "albedo", "core", "pair.working", "pair.albedo", "pair.reference_albedo", "pair.features")
+_ASKED = (
+    "image",
+    "core",
+    "pair.working",
+    "pair.reference_working",
+    "pair.landmarks",
+    "pair.albedo",
+    "pair.reference_albedo",
+    "pair.features",
+)
 
 
 @dataclass(frozen=True)
@@ -22,7 +32,8 @@ class Criteria:
     """One pair.
 
     `shift`: mean movement of the landmarks of eyes, nose and mouth, found again on the result, in inter-ocular
-    distances; `similarity`: SSIM of locally equalized intensity around them, result against input.
+    distances; `floor`: that of the input in the reference's colour statistics, where nothing has moved, so that it is
+    the detector's own. `similarity`: SSIM of locally equalized intensity around them, result against input.
     `seam`: mean gradient along the edge of the painted face over the input's own there; 1 is no seam.
     `albedo_before`, `albedo_after`: mean distance of the regions' median albedo to the reference's.
     """
@@ -30,6 +41,7 @@ class Criteria:
     photo: str
     reference: str
     shift: float
+    floor: float
     similarity: float
     seam: float
     albedo_before: float
@@ -42,8 +54,7 @@ def criteria(photos: Sequence[Path], references: Sequence[Path]) -> Iterator[Cri
     for photo in photos:
         for reference in references:
             try:
-                asked = [*_ASKED, "pair.landmarks"]
-                made = graph.run(asked, evaluator=evaluator, photo=photo, reference=reference)
+                made = graph.run(list(_ASKED), evaluator=evaluator, photo=photo, reference=reference)
                 yield measured(photo.name, reference.name, made)
             except GraphfaceError as error:
                 yield photo.name, reference.name, str(error).partition("\n")[0]
@@ -52,12 +63,14 @@ def criteria(photos: Sequence[Path], references: Sequence[Path]) -> Iterator[Cri
 def measured(photo: str, reference: str, made: Any) -> Criteria:
     """The criteria of one run of makeup.yaml that has the outputs above."""
     before, after, features = made["pair.working"], made["image"], made["pair.features"]
-    albedo = made["pair.reference_albedo"]
+    albedo, landmarks = made["pair.reference_albedo"], made["pair.landmarks"]
+    recoloured = reinhard(before, made["pair.reference_working"])
     return Criteria(
         photo=photo,
         reference=reference,
-        shift=landmark_shift(before, after, made["pair.landmarks"]),
-        similarity=feature_similarity(before.pixels, after.pixels, features, made["pair.landmarks"]),
+        shift=landmark_shift(before, after, landmarks),
+        floor=landmark_shift(before, recoloured, landmarks),
+        similarity=feature_similarity(before.pixels, after.pixels, features, landmarks),
         seam=seam(before.pixels, after.pixels, made["core"]),
         albedo_before=albedo_distance(made["pair.albedo"], albedo, features, made["core"]),
         albedo_after=albedo_distance(_chromaticity(after.pixels), albedo, features, made["core"]),

@@ -17,7 +17,7 @@ _ASKED = ("image", "pair.landmarks", "pair.working", "pair.reference_landmarks",
 
 
 def transfer_table(
-    photos: Sequence[Path], references: Sequence[Path], *, graph: str = "makeup", side: int = 240, threads: int = 2
+    photos: Sequence[Path], references: Sequence[Path], *, graph: str = "makeup", side: int = 360, threads: int = 2
 ) -> Picture:
     """uint8 RGB: the references along the top, the photos down the left, results between them, all `side` pixels.
 

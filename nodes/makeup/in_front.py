@@ -20,7 +20,7 @@ def in_front(
     features: Features,
     landmarks: Landmarks,
     *,
-    dark: Annotated[float, Field(gt=0, le=1)] = 0.5,
+    dark: Annotated[float, Field(gt=0, le=1)] = 0.55,
     size: Annotated[float, Field(gt=0, le=1)] = 0.12,
     resolution: Annotated[int, Field(ge=8, le=256)] = 64,
 ) -> Mask:
@@ -30,7 +30,7 @@ def in_front(
 
     Args:
         shading: the input's intensity.
-        dark: brightness over that of the surroundings at which a pixel begins to count; at half of it, it does.
+        dark: brightness over that of the surroundings at which a pixel begins to count; at two thirds of it, it does.
         size: of the surroundings, in inter-ocular distances.
         resolution: pixels per inter-ocular distance of the copy on which surroundings are averaged.
     """
@@ -43,6 +43,6 @@ def in_front(
     sigma = max(size * landmarks.interocular * scale, 0.5)
     around = cv2.resize(cv2.GaussianBlur(small, (0, 0), sigma), full, interpolation=cv2.INTER_LINEAR)
     relative = (grey + np.float32(_LEAST_LIGHT)) / (around + np.float32(_LEAST_LIGHT))
-    found: FloatArray = np.clip(2 - relative * np.float32(2 / dark), 0, 1)
+    found: FloatArray = np.clip(3 - relative * np.float32(3 / dark), 0, 1)
     found *= 1 - np.minimum(np.maximum.reduce((features.brows, features.lips, features.eyes, features.mouth)), 1)
     return np.asarray(found, np.float32)

@@ -52,3 +52,14 @@ class TestFetched:
         np.testing.assert_allclose(moved.offset[:, :7], offset[:, 1:], atol=1e-6)
         np.testing.assert_allclose(moved.gain[:, :7], gain[:, 1:], atol=1e-6)
         assert resample.detail(DetailMap(offset), shifted(8, 1, 0)).gain is None
+
+
+class TestMask:
+    def test_stays_a_mask(self):
+        """Cubic interpolation overshoots at an edge; a mask fetched by it does not leave 0..1."""
+        step = np.zeros((16, 16), np.float32)
+        step[:, 8:] = 1
+        got = resample.mask(step, shifted(16, 0.5, 0))
+        assert got.min() >= 0
+        assert got.max() <= 1
+        np.testing.assert_allclose(got[:, 7], 0.5, atol=0.02)
