@@ -16,7 +16,7 @@ pack = Pack(
     graphs="graphface.graphs",
     assets="graphface.nodes.landmarks.weights:ASSETS",
     operators={
-        "image": "graphface.nodes.image",
+        "image": "graphface.nodes.image graphface.nodes.highlights",
         "landmarks": "graphface.nodes.landmarks.facemesh graphface.nodes.landmarks.given",
         "geometry": "graphface.nodes.morphable.facemesh graphface.nodes.morphable.morphable",
         "person": "graphface.nodes.morphable.morphable",
@@ -28,6 +28,7 @@ pack = Pack(
         "matting": " ".join(f"graphface.nodes.matting.{m}" for m in ("none", "guided", "closed_form", "knn")),
         "regions": "graphface.nodes.regions",
         "intrinsic": " ".join(f"graphface.nodes.intrinsic.{method}" for method in _INTRINSIC),
+        "albedo": "graphface.nodes.intrinsic.shadow_colour",
         "metrics": "graphface.nodes.metrics.operators",
         "representation": "graphface.nodes.representation",
         "sh": " ".join(f"graphface.nodes.sh.{m}" for m in ("fitting", "rendering", "rotation", "environment", "ball")),

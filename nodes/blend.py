@@ -48,8 +48,8 @@ def recombine(
 
 
 def _strip(detail: DetailMap, rows: slice) -> DetailMap:
-    gain, pivot = (None if part is None else part[rows] for part in (detail.gain, detail.pivot))
-    return DetailMap(detail.offset[rows], gain, pivot)
+    parts = {name: getattr(detail, name) for name in ("gain", "pivot", "ceiling")}
+    return DetailMap(detail.offset[rows], **{name: part[rows] for name, part in parts.items() if part is not None})
 
 
 def _bent(picture: FloatArray, before: FloatArray, shoulder: float, out: FloatArray) -> None:

@@ -163,7 +163,7 @@ def recoloured(
     least = np.maximum(other, np.float32(floor))
     pivot = None if detail.pivot is None else np.asarray(detail.pivot * (own / least), np.float32)
     offset = np.asarray(detail.offset + (albedo - reference) * (_mean(detail.offset) / least), np.float32)
-    return replace(detail, offset=offset, pivot=pivot)
+    return replace(detail, offset=offset, pivot=pivot, ceiling=None)
 
 
 def _mean(values: FloatArray) -> FloatArray:

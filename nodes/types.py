@@ -334,11 +334,15 @@ class DetailMap:
 
     Where there is a `pivot`, the gain holds up to that rendering and light beyond it adds as it is:
     photo = gain * min(rendering, pivot) + max(rendering - pivot, 0) + offset.
+
+    Where there is a `ceiling`, all but that light beyond the pivot stays below it: so a photo whose clipped highlights
+    were reconstructed beyond what it shows is shown as it is.
     """
 
     offset: Detail
     gain: Gain | None = None
     pivot: Albedo | None = None
+    ceiling: FloatArray | None = None
 
     @staticmethod
     def picture(detail: DetailMap) -> NDArray[np.uint8]:

@@ -30,15 +30,16 @@ def applied(detail: DetailMap, rendered: FloatArray) -> FloatArray:
 
     `rendered` is used up: its memory serves as scratch.
     """
-    if detail.gain is None:
-        return rendered + detail.offset
-    if detail.pivot is None:
-        picture = detail.gain * rendered
-    else:
-        # gain * min(rendering, pivot) + max(rendering - pivot, 0)
+    beyond = None
+    picture = rendered
+    if detail.pivot is not None:
         picture = np.minimum(rendered, detail.pivot)
-        above = np.subtract(rendered, picture, out=rendered)
+        beyond = np.subtract(rendered, picture, out=rendered)
+    if detail.gain is not None:
         picture *= detail.gain
-        picture += above
     picture += detail.offset
+    if detail.ceiling is not None:
+        np.minimum(picture, detail.ceiling, out=picture)
+    if beyond is not None:
+        picture += beyond
     return picture

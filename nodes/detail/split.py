@@ -35,6 +35,7 @@ def split(
     albedo: Albedo,
     shading: Shading,
     landmarks: Landmarks | None = None,
+    unclipped: Image | None = None,
     *,
     bound: Annotated[float, Field(ge=1, le=20)] = 2.0,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
@@ -49,20 +50,24 @@ def split(
         photo: in the encoding that albedo and shading were made in.
         shading: the estimated light's, H x W or H x W x 3, spread over the whole picture.
         landmarks: gives the unit of `cutoff`; without them it is a quarter of the picture's shorter side.
+        unclipped: the photo with its highlights reconstructed (`image.unclipped`). Light is taken away from it instead
+            of from the photo, so that a channel that was clipped falls only once it is below what the photo shows.
         bound: the gain stays within 1 / bound .. bound, approached softly; 1 is the additive map.
         floor: draws the ratio of dark pixels towards 1.
         cutoff: residual finer than this, in inter-ocular distances, is left additive; 0: the ratio takes every scale.
 
     Returns:
-        gain, offset and pivot; recombined under `shading` they return the photo.
+        gain, offset, pivot, and a ceiling with `unclipped`; recombined under `shading` they return the photo.
     """
     rendered = rendering(albedo, shading)
-    above, below = _grey(photo.pixels) + np.float32(floor), _grey(rendered) + np.float32(floor)
+    source = photo.pixels if unclipped is None else unclipped.pixels
+    above, below = _grey(source) + np.float32(floor), _grey(rendered) + np.float32(floor)
     ratio = np.log(np.maximum(above, 1e-4) / np.maximum(below, 1e-4))
     if cutoff > 0:
         ratio = _blurred(ratio, cutoff * _unit(landmarks, photo))
     gain = np.repeat(_bounded(ratio, bound)[..., None], 3, axis=2)
-    return DetailMap(offset=photo.pixels - gain * rendered, gain=gain, pivot=rendered)
+    ceiling = None if source is photo.pixels else photo.pixels
+    return DetailMap(offset=source - gain * rendered, gain=gain, pivot=rendered, ceiling=ceiling)
 
 
 def _grey(pixels: FloatArray) -> FloatArray:

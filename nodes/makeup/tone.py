@@ -77,7 +77,7 @@ def exposed(detail: DetailMap, estimated: Shading, reference: Shading, mask: Mas
         return detail
     factor = np.float32(lightness(estimated, reference, mask) ** (tone - 1))
     pivot = None if detail.pivot is None else detail.pivot * factor
-    return replace(detail, offset=detail.offset * factor, pivot=pivot)
+    return replace(detail, offset=detail.offset * factor, pivot=pivot, ceiling=None)
 
 
 def lightness(estimated: Shading, reference: Shading, mask: Mask) -> float:
