@@ -25,7 +25,8 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node, warn
-from graphface.nodes.detail.rendering import rendering
+from graphface.nodes.detail.rendering import in_three_channels, rendering
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Landmarks, Shading
 
 
@@ -59,15 +60,26 @@ def split(
     Returns:
         gain, offset, pivot, and a ceiling with `unclipped`; recombined under `shading` they return the photo.
     """
-    rendered = rendering(albedo, shading)
     source = photo.pixels if unclipped is None else unclipped.pixels
-    above, below = _grey(source) + np.float32(floor), _grey(rendered) + np.float32(floor)
-    ratio = np.log(np.maximum(above, 1e-4) / np.maximum(below, 1e-4))
+    rendered, ratio = np.empty_like(source), np.empty(source.shape[:2], np.float32)
+
+    def compare(rows: slice) -> None:
+        rendered[rows] = rendering(albedo[rows], shading[rows])
+        above, below = (_grey(v[rows]) + np.float32(floor) for v in (source, rendered))
+        ratio[rows] = np.log(np.maximum(above, 1e-4) / np.maximum(below, 1e-4))
+
+    by_strips(compare, source.shape)
     if cutoff > 0:
         ratio = _blurred(ratio, cutoff * _unit(landmarks, photo))
-    gain = np.repeat(_bounded(ratio, bound)[..., None], 3, axis=2)
+    gain, offset = np.empty_like(source), np.empty_like(source)
+
+    def part(rows: slice) -> None:
+        gain[rows] = in_three_channels(_bounded(ratio[rows], bound))
+        np.subtract(source[rows], gain[rows] * rendered[rows], out=offset[rows])
+
+    by_strips(part, source.shape)
     ceiling = None if source is photo.pixels else photo.pixels
-    return DetailMap(offset=source - gain * rendered, gain=gain, pivot=rendered, ceiling=ceiling)
+    return DetailMap(offset=offset, gain=gain, pivot=rendered, ceiling=ceiling)
 
 
 def _grey(pixels: FloatArray) -> FloatArray:

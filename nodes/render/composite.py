@@ -25,7 +25,10 @@ def hair_shine(photo: Image, labels: Segmentation, mask: Mask, *, dull: Percent 
             light amid the new would show: nothing shines where the mask is 1.
         dull, bright: percentiles of the hair's intensity between which the answer rises from 0 to 1.
     """
-    grey = photo.pixels.mean(axis=2, dtype=np.float32)
+    import cv2
+
+    red, green, blue = cv2.split(photo.pixels)
+    grey: FloatArray = (red + green + blue) * np.float32(1 / 3)
     of_hair = grey[labels.hair > 0.5]
     if of_hair.size < 2:
         return np.zeros_like(grey)

@@ -6,6 +6,7 @@ import numpy as np
 
 from graphface import node
 from graphface.nodes.sh.harmonics import basis, has_surface
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Lighting, Normals, Shading
 
 
@@ -16,8 +17,12 @@ def render(light: Lighting, normals: Normals) -> Shading:
     Returns:
         float32, H x W, or H x W x 3 for a coloured light.
     """
-    covered = has_surface(normals)
-    values = basis(normals[covered], light.order) @ light.coefficients
-    shading = np.zeros((*covered.shape, *light.coefficients.shape[1:]), np.float32)
-    shading[covered] = np.maximum(values, 0)
+    shading = np.zeros((*normals.shape[:2], *light.coefficients.shape[1:]), np.float32)
+
+    def strip(rows: slice) -> None:
+        covered = has_surface(normals[rows])
+        values = basis(normals[rows][covered], light.order) @ light.coefficients
+        shading[rows][covered] = np.maximum(values, 0)
+
+    by_strips(strip, normals.shape)
     return shading
