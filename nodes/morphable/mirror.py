@@ -23,8 +23,8 @@ def mirror_vertices(model: MorphableModel) -> NDArray[np.int32] | None:
 
     # OpenCV's tree, since it is loaded anyway: importing scipy's takes longer than all of a fit.
     mean = np.ascontiguousarray(model.mean, np.float32)
-    tree = cv2.flann_Index(mean, {"algorithm": _EXACT_TREE})
-    found, squared = tree.knnSearch(mean * np.float32([-1, 1, 1]), 1, params={})
+    tree = cv2.flann_Index(mean, {"algorithm": _EXACT_TREE})  # type: ignore[attr-defined]
+    found, squared = tree.knnSearch(mean * np.array([-1, 1, 1], np.float32), 1, params={})
     partner = found[:, 0]
     paired = partner[partner] == np.arange(len(mean))
     if squared.max() > _TOLERANCE**2 or not paired.all():

@@ -27,8 +27,11 @@ FORMAT = "graphface-morphable-1"
 _WORDS = ("format", "name", "identity_names", "expression_names", "part_names")
 
 
-def load_model(path: Path) -> MorphableModel:
+def load_model(path: Path, *, refine: bool = True) -> MorphableModel:
     """Read a model written by `save_model`; its mesh subdivided where the card says so.
+
+    Args:
+        refine: False leaves the mesh as it is in the file, to be edited and saved again.
 
     Raises:
         UnreadableFile: a file is missing or damaged, or its parts do not agree.
@@ -56,7 +59,7 @@ def load_model(path: Path) -> MorphableModel:
     except InvalidModel as error:
         raise UnreadableFile(path, error.reason) from error
     levels = int(card.get("refine", 0))
-    return refined(model, levels) if levels else model
+    return refined(model, levels) if levels and refine else model
 
 
 def save_model(model: MorphableModel, path: Path, *, half: bool = False) -> None:

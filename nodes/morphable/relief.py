@@ -1,0 +1,144 @@
+"""Correct a model's relief by faces whose normals are known.
+
+A landmark network's depth has habits: chins, lips and eye sockets too flat, cheeks and noses too steep. What is common
+to all faces can be measured once, as the mean difference between true and fitted normals at each vertex, and undone:
+the mean shape is moved along its own normals until it has that difference. The fit's points in a frontal picture hardly
+move, and depth and shadows agree with the normals, which a mere correction of normals could not promise.
+
+Moving a surface by h(x) along its normal n turns the normal by minus the gradient of h, so that
+
+    min_h  sum_v w_v |-grad h(v) - d(v)|^2  +  smoothness |Laplace h|^2  +  ridge |h|^2
+
+is a linear problem, in as many unknowns as the coarse model has vertices; w_v is the number of faces that show v.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface import UsageError
+from graphface.nodes.morphable.mirror import mirror_vertices
+from graphface.nodes.morphable.model import MorphableModel
+from graphface.nodes.morphable.normals import vertex_normals
+from graphface.nodes.morphable.subdivide import loop
+from graphface.nodes.types import FloatArray, Mask, Mesh, Normals, Surface
+
+Array = NDArray[np.float64]
+
+_LEAST_PIXELS = 2.0
+"""Pixels of a face that a vertex must have for the face to count there."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """True minus fitted normals of one face at each vertex of its mesh, in the face's own frame.
+
+    `mean` (V, 3); `seen` (V,), whether the face says anything there.
+    """
+
+    mean: Array
+    seen: NDArray[np.bool_]
+
+
+def normal_difference(mesh: Mesh, surface: Surface, true_normals: Normals, where: Mask) -> Difference:
+    """Measure one face.
+
+    Args:
+        mesh: fitted; its `fit` tells how the face is turned.
+        surface: the mesh as the camera sees it.
+        true_normals: H x W x 3 unit, camera frame.
+        where: H x W, above 0.5 where the truth is to be believed.
+
+    Raises:
+        UsageError: the mesh was not fitted.
+    """
+    if mesh.fit is None:
+        raise UsageError("a mesh without a fit does not tell how the face is turned; use geometry.morphable")
+    used = (surface.triangle >= 0) & (where > 0.5)
+    apart = (true_normals[used] - surface.normals[used]) @ mesh.fit.rotation
+    corners, shares = mesh.triangles[surface.triangle[used]], surface.barycentric[used].astype(np.float64)
+    sums, weights = np.zeros((len(mesh.vertices), 3)), np.zeros(len(mesh.vertices))
+    for k in range(3):
+        np.add.at(sums, corners[:, k], shares[:, k, None] * apart)
+        np.add.at(weights, corners[:, k], shares[:, k])
+    return Difference(sums / np.maximum(weights, 1e-9)[:, None], weights > _LEAST_PIXELS)
+
+
+def learned_relief(
+    coarse: MorphableModel, levels: int, faces: Sequence[Difference], *, smoothness: float = 50.0, ridge: float = 0.1
+) -> FloatArray:
+    """How far each vertex of a coarse model's mean is to move along its normal: float32 (V,), mirror-symmetric.
+
+    Args:
+        levels: how often the model was subdivided where the `faces` were measured.
+        faces: of `normal_difference`.
+        smoothness, ridge: see above.
+
+    Raises:
+        UsageError: no faces, or faces of another mesh.
+    """
+    matrix, triangles = loop(coarse.triangles, len(coarse.mean), levels)
+    if not faces or any(face.mean.shape != (matrix.shape[0], 3) for face in faces):
+        raise UsageError(f"a relief is learned from faces measured on this model's {matrix.shape[0]} vertices")
+    fine = matrix @ coarse.mean.astype(np.float64)
+    count = np.sum([face.seen for face in faces], axis=0)
+    wanted = np.sum([face.mean * face.seen[:, None] for face in faces], axis=0) / np.maximum(count, 1)[:, None]
+    normals = vertex_normals(fine, triangles).astype(np.float64)
+    wanted -= np.einsum("vc,vc->v", wanted, normals)[:, None] * normals
+
+    slope = -(_gradient(fine, triangles) @ matrix)
+    weight = np.repeat(count / len(faces), 3)
+    laplace = _laplacian(coarse.triangles, len(coarse.mean)).toarray()
+    system = (slope.T @ slope.multiply(weight[:, None])).toarray() + smoothness * laplace.T @ laplace
+    height = np.linalg.solve(system + ridge * np.eye(len(system)), slope.T @ (weight * wanted.ravel()))
+    partners = mirror_vertices(coarse)
+    return np.asarray(height if partners is None else (height + height[partners]) / 2, np.float32)
+
+
+def with_relief(coarse: MorphableModel, relief: FloatArray) -> MorphableModel:
+    """The model with its mean moved along its normals by `relief` (V,)."""
+    moves = relief[:, None] * vertex_normals(coarse.mean.astype(np.float64), coarse.triangles)
+    partners = mirror_vertices(coarse)
+    if partners is not None:
+        moves = (moves + moves[partners] * np.array([-1, 1, 1], np.float32)) / 2  # what lies in the middle stays there
+    return replace(coarse, mean=(coarse.mean + moves).astype(np.float32))
+
+
+def _gradient(points: Array, triangles: NDArray[np.int32]) -> Any:
+    """Sparse (3V, V): from values at vertices to their gradients there, the mean over triangles by area."""
+    from scipy.sparse import csr_array
+
+    corners = points[triangles]
+    facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    twice = np.maximum(np.linalg.norm(facing, axis=1), 1e-12)
+    around = np.zeros(len(points))
+    for k in range(3):
+        np.add.at(around, triangles[:, k], twice)
+    rows, columns, values = [], [], []
+    for j in range(3):
+        opposite = corners[:, (j + 2) % 3] - corners[:, (j + 1) % 3]
+        slope = np.cross(facing / twice[:, None], opposite) / twice[:, None]  # of the hat function of corner j
+        for k in range(3):
+            share = twice / np.maximum(around[triangles[:, k]], 1e-12)
+            for axis in range(3):
+                rows.append(3 * triangles[:, k] + axis)
+                columns.append(triangles[:, j])
+                values.append(share * slope[:, axis])
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    return csr_array(entries, shape=(3 * len(points), len(points)))
+
+
+def _laplacian(triangles: NDArray[np.int32], vertices: int) -> Any:
+    """Sparse (V, V): mean of the neighbours minus the value."""
+    from scipy.sparse import csr_array, diags_array, eye_array
+
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges = np.unique(np.sort(sides, axis=1), axis=0)
+    ends = (np.concatenate([edges[:, 0], edges[:, 1]]), np.concatenate([edges[:, 1], edges[:, 0]]))
+    touching = csr_array((np.ones(2 * len(edges)), ends), shape=(vertices, vertices))
+    return diags_array(1 / np.maximum(touching.sum(axis=1), 1)) @ touching - eye_array(vertices)
