@@ -28,7 +28,7 @@ _HUBER = 1.345
 """Huber's constant in standard deviations: 95 % as efficient as least squares where there are no outliers."""
 
 
-@node("sh.fit", version=2)
+@node("sh.fit", version=3)
 def fit(
     shading: Shading,
     normals: Normals,
@@ -36,7 +36,7 @@ def fit(
     *,
     order: Annotated[int, Field(ge=0, le=3)] = 1,
     ridge: Annotated[float, Field(ge=1e-9, le=1)] = 1e-4,
-    robust: Robust = "none",
+    robust: Robust = "trimmed",
     keep: Annotated[float, Field(ge=0.5, le=1)] = 0.8,
     nonnegative: bool = False,
     grey: bool = False,
@@ -53,8 +53,10 @@ def fit(
         mask: H x W weights, 0..1.
         order: 0 ambient, 1 as the paper (4 coefficients), 2 (9), 3 (16).
         ridge: relative weight of the ridge.
-        robust: against cast shadows and highlights. "huber" counts large misfits by their size instead of its square;
-            "trimmed" fits the share `keep` that fits best (least trimmed squares).
+        robust: against what no light explains: brows, eyes, lips, beards, cast shadows and highlights. "huber" counts
+            large misfits by their size instead of its square; "trimmed" fits the share `keep` that fits best (least
+            trimmed squares); "none" fits all. (Relit path-traced heads: none 26.7, huber 27.5, trimmed 27.8 dB;
+            squared error on every third person of the Yale set 0.0115, 0.0113, 0.0110.)
         nonnegative: no direction may receive negative light; by quadratic programming at 600 directions.
         grey: one light for all channels of a coloured shading.
 
