@@ -1,7 +1,8 @@
-"""Light beyond the face mesh: the rest of the head and the neck as simple solids, so that they can be lit like it.
+"""Light beyond the face mesh: the rest of the head, the neck and the shoulders as simple solids, to be lit like it.
 
 The face models end at the hairline, the jaw and the ears; a shading that merely continues there knows no neck in the
-chin's shadow and no side of the head that turns away. An ellipsoid and a cylinder of average size do, roughly.
+chin's shadow, no shoulder that catches the light from above, no side of the head that turns away. Solids of average
+size do, roughly.
 """
 
 from __future__ import annotations
@@ -13,21 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import node, warn
-from graphface.nodes.masks.head import CRANIUM, NECK_DEPTH, NECK_RADIUS
-from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.masks.head import CRANIUM
+from graphface.nodes.morphable.topology import FOREHEAD, facemesh_topology
+from graphface.nodes.render.neck import Points, Solid, grid_triangles, neck, underside
 from graphface.nodes.types import Mesh
 
 _POINTS = 468
 """The built-in meshes begin with the points of FaceMesh."""
 
-_NECK = (-0.35, -2.2)
-"""Heights between which the neck stands, in the mean face's frame; far down it is the collar's, at no harm."""
-
 _BEHIND = 0.2
 """How far the skull stays behind the middle of the face, as a share of its size, so that it does not poke through."""
-
-_RECESS = 0.12
-"""How far the neck stands further back than upright: heads in photos look ahead, chin forward."""
 
 _TEMPLE, _FREE = 0.25, 0.35
 """Height of the temples in the mean face's frame; how far the skull stays behind the jaw, as a share of its size."""
@@ -36,12 +32,16 @@ _NEAR, _REACH = 0.12, 0.4
 """Angles, seen from the middle of the skull, over which the skull follows the face's rim, and after which it no longer
 does."""
 
-Points = NDArray[np.float64]
+_JAW = 0.05
+"""Height in the mean face's frame below which the rim of the mesh is the edge of the jaw."""
+
+_STRANGE = 0.2
+"""Root mean square distance from the posed mean face, in its unit, above which points are not FaceMesh's."""
 
 
 @node("render.head")
 def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
-    """A face mesh with a cranium and a neck of average size behind it, in the face's own pose.
+    """A face mesh with a cranium, a neck and shoulders of average size behind it, in the face's own pose.
 
     Args:
         mesh: of `geometry.*`. Where its pose is not known (other points than FaceMesh's) it comes back as it is.
@@ -58,7 +58,9 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
         return mesh
     rotation, scale, middle = pose
     own = (mesh.vertices[:_POINTS].astype(np.float64) - middle) @ rotation / scale
-    parts = [_skull(own), _cylinder(NECK_RADIUS, NECK_DEPTH - _RECESS, *_NECK)]
+    jaw = _jaw()
+    edge_normals = mesh.normals[jaw].astype(np.float64) @ rotation
+    parts = [_skull(own), neck(), underside(own[jaw], edge_normals)]
     vertices, normals, triangles = [mesh.vertices], [mesh.normals], [mesh.triangles]
     count = len(mesh.vertices)
     for points, outward, faces in parts:
@@ -88,10 +90,14 @@ def _pose(mesh: Mesh) -> tuple[Points, float, Points] | None:
     sign = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
     rotation = (u * sign) @ vt
     scale = float((sizes * sign).sum() / max(np.square(mean - from_middle).sum(), 1e-12))
-    return (rotation, scale, to_middle - scale * rotation @ from_middle) if scale > 1e-6 else None
+    if scale <= 1e-6:
+        return None
+    apart = (points - to_middle) / scale - (mean - from_middle) @ rotation.T
+    strange = float(np.sqrt(np.square(apart).sum(axis=1).mean())) > _STRANGE
+    return None if strange else (rotation, scale, to_middle - scale * rotation @ from_middle)
 
 
-def _skull(face: Points) -> tuple[Points, Points, NDArray[np.int64]]:
+def _skull(face: Points) -> Solid:
     """The ellipsoid, drawn to the rim of this face, so that no step between the two throws a shadow.
 
     Args:
@@ -114,37 +120,30 @@ def _skull(face: Points) -> tuple[Points, Points, NDArray[np.int64]]:
 
 @cache
 def _rim() -> NDArray[np.int64]:
-    """The points along the outline of the face mesh."""
+    """The points along the outline of the face mesh, once around; with the face to their left, seen from outside."""
     triangles = facemesh_topology().triangles
-    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    unique, uses = np.unique(edges, axis=0, return_counts=True)
-    return np.unique(unique[uses == 1])
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).tolist()
+    inner = {(b, a) for a, b in sides}
+    onward = {a: b for a, b in sides if (a, b) not in inner}
+    rim = [FOREHEAD]
+    while onward[rim[-1]] != FOREHEAD:
+        rim.append(onward[rim[-1]])
+    return np.array(rim)
 
 
-def _ellipsoid(
-    center: tuple[float, ...], axes: tuple[float, ...], rings: int = 24, sectors: int = 48
-) -> tuple[Points, Points, NDArray[np.int64]]:
+@cache
+def _jaw() -> NDArray[np.int64]:
+    """The part of the rim below the ears, from the picture's left to its right."""
+    rim = _rim()  # from the middle of the forehead down one side and up the other: the jaw is one run of it
+    mean = facemesh_topology().mean
+    jaw: NDArray[np.int64] = rim[mean[rim, 1] < _JAW]
+    return jaw if mean[jaw[0], 0] < 0 else jaw[::-1]
+
+
+def _ellipsoid(center: tuple[float, ...], axes: tuple[float, ...], rings: int = 24, sectors: int = 48) -> Solid:
     """Vertices, outward normals and triangles."""
     down, around = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij")
     unit = np.stack([np.sin(down) * np.sin(around), np.cos(down), np.sin(down) * np.cos(around)], axis=-1)
     points = (np.asarray(center) + unit * axes).reshape(-1, 3)
     normals = (unit / axes).reshape(-1, 3)
-    return points, normals / np.linalg.norm(normals, axis=1, keepdims=True), _grid(rings, sectors)
-
-
-def _cylinder(
-    radius: float, depth: float, top: float, bottom: float, rings: int = 8, sectors: int = 48
-) -> tuple[Points, Points, NDArray[np.int64]]:
-    height, around = np.meshgrid(
-        np.linspace(top, bottom, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij"
-    )
-    normals = np.stack([np.sin(around), np.zeros_like(around), np.cos(around)], axis=-1).reshape(-1, 3)
-    points = normals * radius + np.stack([0 * height, height, 0 * height + depth], axis=-1).reshape(-1, 3)
-    return points, normals, _grid(rings, sectors)
-
-
-def _grid(rows: int, columns: int) -> NDArray[np.int64]:
-    """Triangles of a grid of (rows + 1) x (columns + 1) points, counter-clockwise seen from outside."""
-    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).reshape(-1)
-    right, below = first + 1, first + columns + 1
-    return np.concatenate([np.stack([first, below, right], 1), np.stack([right, below, below + 1], 1)])
+    return points, normals / np.linalg.norm(normals, axis=1, keepdims=True), grid_triangles(rings, sectors)

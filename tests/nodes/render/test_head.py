@@ -12,6 +12,7 @@ from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.render.head import head
 from graphface.nodes.render.light_of import scene_of
+from graphface.nodes.render.neck import neck, underside
 from graphface.nodes.render.samples import samples
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.specular import specular
@@ -58,6 +59,32 @@ class TestHead:
         np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-4)
         assert mesh.triangles.max() < len(mesh.vertices)
 
+    def test_no_gap_below_the_jaw(self):
+        """From the chin down to the neck there is surface, and it looks downwards before it looks ahead again."""
+        surface = rasterize(head(face_mesh(unit=80.0)), Image(np.zeros((400, 160, 3), np.float32)))
+        chin = np.flatnonzero(
+            rasterize(face_mesh(unit=80.0), Image(np.zeros((400, 160, 3), np.float32))).coverage[:, 80]
+        )
+        below = slice(chin[-1] - 2, chin[-1] + 60)
+        assert surface.coverage[below, 80].all()
+        assert surface.normals[below, 80, 1].min() < -0.3
+        assert surface.normals[chin[-1] + 50, 80, 2] > 0.8
+
+    def test_shoulders_face_upwards(self):
+        """Beside the neck, at its foot, light from above arrives."""
+        surface = rasterize(head(face_mesh(unit=60.0)), Image(np.zeros((240, 260, 3), np.float32)))
+        assert surface.normals[175, 80 + 75, 1] > 0.5
+        assert surface.normals[175, 80 - 75, 1] > 0.5
+
+    def test_points_of_another_kind(self):
+        """A mesh whose first points are not FaceMesh's tells no pose: it comes back, with a warning."""
+        from dataclasses import replace
+
+        mesh = face_mesh()
+        strange = replace(mesh, vertices=np.roll(mesh.vertices, 100, axis=0))
+        with pytest.warns(match="no pose"):
+            assert head(strange) is strange
+
     def test_a_face_of_one_point(self):
         """No pose to be had: the mesh comes back, with a warning."""
         from dataclasses import replace
@@ -65,6 +92,36 @@ class TestHead:
         flat = replace(face_mesh(), vertices=np.zeros((468, 3), np.float32))
         with pytest.warns(match="no pose"):
             assert head(flat) is flat
+
+
+class TestNeck:
+    def test_is_closed_around(self):
+        """The seam at its back has one normal, and all look outwards."""
+        points, normals, _ = neck(rows=10, sectors=16)
+        ring = normals.reshape(11, 17, 3)
+        np.testing.assert_allclose(ring[:, 0], ring[:, -1])
+        outward = points * (1, 0, 1) - (0, 0, points[:, 2].mean())
+        assert (np.einsum("nc,nc->n", outward, normals) > 0).mean() > 0.95
+
+    @settings(max_examples=40, deadline=None)
+    @given(st.integers(0, 2**32 - 1), st.floats(0, 10))
+    def test_underside_of_any_edge(self, seed, size):
+        """However the edge of a jaw runs, vertices are finite and normals of unit length."""
+        rng = np.random.default_rng(seed)
+        outward = rng.normal(size=(9, 3))
+        outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+        points, normals, triangles = underside(size * rng.normal(size=(9, 3)), outward)
+        assert np.isfinite(points).all()
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-4)
+        assert triangles.max() < len(points)
+
+    def test_underside_begins_at_the_edge(self):
+        """Its first row is the face's rim, with the face's normals: there is no crease."""
+        edge = np.stack([np.linspace(-0.7, 0.7, 9), -0.9 + np.linspace(-0.7, 0.7, 9) ** 2, np.zeros(9)], axis=1)
+        outward = np.tile([0.0, -0.5, np.sqrt(0.75)], (9, 1))
+        points, normals, _ = underside(edge, outward)
+        np.testing.assert_allclose(points[:9], edge)
+        np.testing.assert_allclose(normals[:9], outward)
 
 
 class TestSceneOf:
