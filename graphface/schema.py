@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from graphface.document import TAKEN
 from graphface.node import Operator
 from graphface.registry import Registry
 
@@ -30,7 +31,7 @@ def graph_schema(registry: Registry) -> dict[str, Any]:
             "name": {"type": ["string", "null"]},
             "doc": {"type": ["string", "null"]},
             "extends": {"type": ["string", "null"], "pattern": _GRAPH_FILE, "description": "Graph file to start from."},
-            "inputs": _named({"$ref": "#/$defs/input"}),
+            "inputs": _named({"$ref": "#/$defs/input"}, taken=TAKEN),
             "nodes": _named({"$ref": "#/$defs/node"}),
             "outputs": _named({"$ref": "#/$defs/reference"}),
             "variants": _named(_named({"$ref": "#/$defs/node"})),
@@ -123,9 +124,12 @@ def _inlined(schema: dict[str, Any]) -> dict[str, Any]:
     return properties
 
 
-def _named(values: dict[str, Any]) -> dict[str, Any]:
+def _named(values: dict[str, Any], taken: frozenset[str] = frozenset()) -> dict[str, Any]:
     """A mapping from names to `values`; an empty one may be written as nothing.
 
     Not an `anyOf` with null: where none of its options fits, checkers mark the whole section instead of the mistake.
     """
-    return {"type": ["object", "null"], "propertyNames": {"pattern": _NAME}, "additionalProperties": values}
+    names: dict[str, Any] = {"pattern": _NAME}
+    if taken:
+        names["not"] = {"enum": sorted(taken)}
+    return {"type": ["object", "null"], "propertyNames": names, "additionalProperties": values}

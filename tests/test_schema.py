@@ -140,6 +140,7 @@ class TestRejects:
             "{graphface: 1, nodes: {2 n: {use: toy.number}}}",
             "{graphface: 1, nodes: [1]}",
             "{graphface: 1, inputs: {x: {default: 1}}}",
+            "{graphface: 1, inputs: {evaluator: Image}}",
             "{graphface: 1, outputs: {y: [a]}}",
             "{graphface: 1, extends: 3}",
         ],

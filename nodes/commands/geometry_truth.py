@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import UnreadableFile
+from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
@@ -84,9 +84,7 @@ def geometry_truth(data: Path, models: Mapping[str, MorphableModel]) -> Iterator
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
-    heads = sorted(path.parent for path in (data / "truth").glob("*/meta.json"))
-    if not heads:
-        raise UnreadableFile(data / "truth", "holds no heads (folders with a meta.json)")
+    heads = heads_of(data)
     for head in heads:
         yield from _head(head, geometries(models))
 

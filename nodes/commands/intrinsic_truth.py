@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from graphface import UnreadableFile
 from graphface.nodes.colour import decode_srgb
+from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.metrics import direction_angle, lmse, si_mse
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask, Normals
@@ -144,9 +144,7 @@ def heads(data: Path) -> Iterator[Head]:
     Raises:
         UnreadableFile: there are none.
     """
-    found = sorted(path.parent for path in (data / "truth").glob("*/meta.json"))
-    if not found:
-        raise UnreadableFile(data / "truth", "holds no heads (folders with a meta.json)")
+    found = heads_of(data)
     for folder in found:
         with np.load(folder / "aov.npz") as maps:
             normals, albedo = (maps[name].astype(np.float32) for name in ("normal", "albedo"))

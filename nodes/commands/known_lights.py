@@ -17,6 +17,7 @@ import numpy as np
 
 from graphface import UnreadableFile
 from graphface.nodes.colour import decode_srgb
+from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.commands.truth import LIGHTS, known_scene
 from graphface.nodes.image import read_image, write_image
 from graphface.nodes.render.irradiance import irradiance
@@ -132,9 +133,7 @@ def relight_known(cases: Iterator[Case], out: Path | None, variant: Variant, *, 
 
 def truth_cases(data: Path) -> Iterator[Case]:
     """The path-traced heads of `data`/truth, from `frontal` to every other light, compared over the face label."""
-    heads = sorted(path.parent for path in (data / "truth").glob("*/meta.json"))
-    if not heads:
-        raise UnreadableFile(data / "truth", "holds no heads (folders with a meta.json)")
+    heads = heads_of(data)
     for head in heads:
         lights = json.loads((head / "meta.json").read_text(encoding="utf-8"))["lights"]
         photo = read_image(head / "frontal.png")

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import UnreadableFile
+from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.classify import classify
@@ -60,9 +60,7 @@ def segment_truth(data: Path, mattings: dict[str, Matting] | None = None) -> Ite
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
-    heads = sorted(path.parent for path in (data / "truth").glob("*/labels.png"))
-    if not heads:
-        raise UnreadableFile(data / "truth", "holds no heads (folders with a labels.png)")
+    heads = heads_of(data, "labels.png")
     for head in heads:
         photo = read_image(head / "frontal.png")
         truth = true_labels(head / "labels.png")

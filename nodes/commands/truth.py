@@ -15,9 +15,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphface import UnreadableFile
 from graphface.nodes import blend, detail, sh
 from graphface.nodes.colour import decode_srgb, encode_srgb
+from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image, write_image
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
@@ -76,9 +76,7 @@ def relight_truth(
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
-    heads = sorted(path.parent for path in (data / "truth").glob("*/meta.json"))
-    if not heads:
-        raise UnreadableFile(data / "truth", "holds no heads (folders with a meta.json)")
+    heads = heads_of(data)
     for head in heads:
         yield from _relight_head(head, out / head.name, encoding, method, shoulder, source)
 

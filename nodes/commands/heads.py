@@ -1,0 +1,19 @@
+"""The path-traced heads of a folder of ground truth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from graphface import UnreadableFile
+
+
+def heads_of(data: Path, holding: str = "meta.json") -> list[Path]:
+    """The folders under `data`/truth that hold a file of that name, in order.
+
+    Raises:
+        UnreadableFile: there are none.
+    """
+    found = sorted(path.parent for path in (data / "truth").glob(f"*/{holding}"))
+    if not found:
+        raise UnreadableFile(data / "truth", f"holds no heads (folders with a {holding})")
+    return found
