@@ -9,8 +9,10 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.regions import Regions
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Landmarks, Mask
 from graphface.nodes.warp.correspondence import Correspondence
 
@@ -159,15 +161,26 @@ def recoloured(
         reference, albedo: the reference's, warped to the input, and the input's.
         floor: least mean albedo divided by.
     """
-    own, other = (_mean(values) for values in (albedo, reference))
-    least = np.maximum(other, np.float32(floor))
-    pivot = None if detail.pivot is None else np.asarray(detail.pivot * (own / least), np.float32)
-    offset = np.asarray(detail.offset + (albedo - reference) * (_mean(detail.offset) / least), np.float32)
+    offset = np.empty_like(detail.offset)
+    pivot = None if detail.pivot is None else np.empty_like(detail.pivot)
+
+    def strip(rows: slice) -> None:
+        own, other = albedo[rows], reference[rows]
+        least = np.maximum(_mean(other), np.float32(floor))
+        moved = np.asarray(_mean(detail.offset[rows]) / least, np.float32)
+        offset[rows] = detail.offset[rows] + (own - other) * in_three_channels(moved)
+        if pivot is not None and detail.pivot is not None:
+            lighter = np.asarray(_mean(own) / least, np.float32)
+            pivot[rows] = np.asarray(detail.pivot[rows] * in_three_channels(lighter), np.float32)
+
+    by_strips(strip, offset.shape)
     return replace(detail, offset=offset, pivot=pivot, ceiling=None)
 
 
 def _mean(values: FloatArray) -> FloatArray:
-    return np.asarray(values.mean(axis=2, keepdims=True, dtype=np.float32))
+    """Over the channels: their sum is several times faster than a mean along so short an axis."""
+    grey: FloatArray = (values[..., 0] + values[..., 1] + values[..., 2]) * np.float32(1 / 3)
+    return grey
 
 
 def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float | None, finest: float) -> FloatArray:

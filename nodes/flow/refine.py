@@ -35,6 +35,9 @@ _CONTRAST_FLOOR = 0.02
 _CONTRAST = 45.0
 """Grey levels for one standard deviation of local contrast."""
 
+_WORTH = 0.02
+"""Share of the face that must be seen by its mirror image only, for that to be matched as well."""
+
 _PRIOR_WEIGHT = 0.15
 """Weight of "no displacement" beside that of the flow, where flow has full confidence: 1."""
 
@@ -76,8 +79,9 @@ def refined(
     direct = replace(correspondence, mirrored=None, mirrored_valid=None)
     places = _refined_places(photo, reference, direct, window, unit, flow, settings)
     mirrored, valid = correspondence.mirrored, correspondence.mirrored_valid
-    if mirrored is not None and valid is not None and (valid > 0.5).any():
+    if mirrored is not None and valid is not None and (valid > 0.5).mean() > _WORTH * correspondence.inside.mean():
         other = replace(direct, places=mirrored, valid=valid)
+        window = _face_window(np.asarray(valid > 0.5, np.float32), margin=round(0.1 * unit)) or window
         mirrored = _refined_places(photo, reference, other, window, unit, flow, settings)
     return replace(correspondence, places=places, mirrored=mirrored)
 
@@ -106,7 +110,8 @@ def _refined_places(
     inside = small(correspondence.inside * (correspondence.valid > 0.5))
     inside *= inside > 0.999  # beside the mesh there are no values to compare
     mine = _log_intensity(small(photo.pixels))
-    theirs = np.where(inside > 0.999, _log_intensity(small(fetched(reference.pixels, correspondence))), mine)
+    reduced = replace(correspondence, places=small(correspondence.places), inside=inside, valid=inside)
+    theirs = np.where(inside > 0.999, _log_intensity(fetched(reference.pixels, reduced)), mine)
     mine, theirs = (_equalized(values, settings.window * unit) for values in (mine, theirs))
     levels = [np.clip(128 + _CONTRAST * v, 0, 255).astype(np.uint8) for v in (mine, theirs)]
     forth = np.asarray(flow(levels[0], levels[1]), np.float32)

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.makeup.features import Features
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
 from graphface.nodes.warp.correspondence import Correspondence
 
@@ -30,9 +32,6 @@ _WHOLE = 0.75
 
 _TEXTURE = np.float32(0.08)
 """What differs by less from its surroundings is texture, which brighter skin shows no stronger."""
-
-_STRIP = 1 << 15
-"""Values worked on at a time, few enough for the processor's cache."""
 
 
 @node("makeup.core")
@@ -146,22 +145,21 @@ def boundary(
     change[known & ~bare] = around[known & ~bare]  # lips and brows have no place in the ring
     continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
     factor = np.asarray(cv2.resize(np.exp(continued), core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
-    broad = small(photo.pixels)
-    broad = cv2.GaussianBlur(broad, (0, 0), max(0.03 * unit, 0.5), borderType=cv2.BORDER_REPLICATE)
-    broad = np.asarray(cv2.resize(broad, core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
+    smooth = cv2.GaussianBlur(small(photo.pixels), (0, 0), max(0.03 * unit, 0.5), borderType=cv2.BORDER_REPLICATE)
+    broad = np.asarray(cv2.resize(smooth, core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
     # What shines more than skin does is no skin colour: it moves with the skin, and is not multiplied.
     matte = np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32)
     pixels = np.empty_like(photo.pixels)
-    step = max(1, _STRIP // max(1, 3 * photo.width))
-    for rows in (slice(top, top + step) for top in range(0, photo.height, step)):
-        before = photo.pixels[rows]
-        more = factor[rows] - 1
+
+    def strip(rows: slice) -> None:
+        before, more = photo.pixels[rows], factor[rows] - 1
         # Where it gets darker everything in the pixel does; where it gets brighter, pores and grain stay what they are.
         off = broad[rows] - before
-        skin = before + off * np.clip(2 - np.abs(off) / _TEXTURE, 0, 1) * (more > 0)
-        change = (np.minimum(skin, matte) + np.float32(_FLOOR)) * more
-        beyond = before + _limited(change, before)
-        pixels[rows] = beyond + core[rows, :, None] * (painted.pixels[rows] - beyond)
+        skin = before + off * np.clip(2 - np.abs(off) * (1 / _TEXTURE), 0, 1) * (more > 0)
+        beyond = before + _limited((np.minimum(skin, matte) + np.float32(_FLOOR)) * more, before)
+        pixels[rows] = beyond + in_three_channels(core[rows]) * (painted.pixels[rows] - beyond)
+
+    by_strips(strip, pixels.shape)
     return photo.with_pixels(pixels)
 
 
