@@ -1,8 +1,8 @@
-"""Light beyond the face mesh: the rest of the head, the neck and the shoulders as simple solids, to be lit like it.
+"""Light beyond the face mesh: the rest of the head and the neck as simple solids, so that they can be lit like it.
 
 The face models end at the hairline, the jaw and the ears; a shading that merely continues there knows no neck in the
-chin's shadow, no shoulder that catches the light from above, no side of the head that turns away. Solids of average
-size do, roughly.
+chin's shadow, no foot of the neck that catches the light from above, no side of the head that turns away. Solids of
+average size do, roughly.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _STRANGE = 0.2
 
 @node("render.head")
 def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
-    """A face mesh with a cranium, a neck and shoulders of average size behind it, in the face's own pose.
+    """A face mesh with a cranium and a neck of average size behind it, in the face's own pose.
 
     Args:
         mesh: of `geometry.*`. Where its pose is not known (other points than FaceMesh's) it comes back as it is.
