@@ -45,7 +45,9 @@ def bare_skin(values: FloatArray, skin: NDArray[np.bool_], layout: Layout, unit:
     """How surely each pixel above the eyes is skin that goes on from the forehead, float32 h x w in [0, 1].
 
     Args:
-        values: features h x w x D, the first three of which are colour.
+        values: features h x w x D, the first three of which are colour: lightness and two that are 0 for grey, as in
+            the default "lab". In other spaces (see `masks.features`) "hue" is read off other axes, and skin above the
+            mesh is told less well; nothing fails.
         skin: what is surely skin.
         unit: inter-ocular distance in working pixels.
 

@@ -23,7 +23,7 @@ def guided(
     landmarks: Landmarks,
     *,
     radius: Annotated[float, Field(gt=0, le=2)] = 0.06,
-    ridge: Annotated[float, Field(ge=1e-8, le=1)] = 1e-4,
+    ridge: Annotated[float, Field(ge=1e-8, le=1)] = 1e-3,
     resolution: Annotated[int, Field(ge=8, le=1024)] = 80,
 ) -> Segmentation:
     """The labels, drawn to the edges of the photo.
@@ -31,7 +31,8 @@ def guided(
     Args:
         photo: the guide. labels: soft labels; where one is certain over a window it stays so.
         radius: half the window's side, in inter-ocular distances.
-        ridge: variance of colour below which there is no edge.
+        ridge: variance of colour below which there is no edge. A tenth of it draws the noise of a photo into alpha,
+            and is no nearer to the truth (hair on path-traced heads: overlap 0.956 at 1e-4, 0.958 at 1e-3).
         resolution: pixels per inter-ocular distance that the linear functions are found at.
     """
     import cv2
