@@ -13,7 +13,7 @@ from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.regions import Regions
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import Albedo, DetailMap, FloatArray, Landmarks, Mask
+from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Landmarks, Mask
 from graphface.nodes.warp.correspondence import Correspondence
 
 Region = Literal[
@@ -30,7 +30,9 @@ Region = Literal[
 Strength = Annotated[float, Field(ge=0, le=2)]
 Scale = Annotated[float, Field(gt=0, le=2)]
 
-_LEAST_ALBEDO = np.float32(0.05)
+_LEAST_COLOUR = np.float32(0.05)
+_DARK = np.float32(0.03)
+"""Added to colour and intensity: what is nearly black is grey."""
 
 REGIONS: tuple[Region, ...] = Region.__args__  # type: ignore[attr-defined]
 
@@ -82,22 +84,25 @@ def mask(
 
 @node("transfer.paint")
 def paint(
-    albedo: Albedo,
-    reference: Albedo,
+    photo: Image,
+    reference: Image,
     mask: Mask,
     landmarks: Landmarks,
     *,
     faint: Annotated[float, Field(ge=0, le=2)] = 0.2,
     full: Annotated[float, Field(gt=0, le=2)] = 0.4,
+    margin: Scale = 0.03,
 ) -> Mask:
-    """Where the reference is another colour than the same place of the input, each measured by its own skin.
+    """Where the reference is another colour than the same place of the photo, each measured by its own skin.
 
-    Lipstick darkens what it lies on, and so does a drawn moon: that is no relief, and colours stay the input's.
+    Lipstick darkens what it lies on, and so does a drawn moon: that is no relief, and colours stay the photo's.
 
     Args:
-        albedo, reference: the input's, and the reference's warped to it, creases and shine included.
+        photo, reference: the photo, and the reference warped to it. Colour is that over intensity, as photographed: an
+            albedo may have been given the skin's colour where it is dark.
         mask: the faces' common part, over which the colour of the skin is the median.
         faint, full: difference of colour, the skin's being 1, at which paint begins and is certain.
+        margin: width added around what is found, in inter-ocular distances: paint has edges.
     """
     import cv2
 
@@ -105,9 +110,14 @@ def paint(
     if not where.any():
         return np.zeros_like(mask)
     sample = max(1, int(where.sum()) // 20000)
-    own, other = (v / np.maximum(np.median(v[where][::sample], axis=0), _LEAST_ALBEDO) for v in (albedo, reference))
-    apart = np.abs(own - other).max(axis=2).astype(np.float32)
-    apart = cv2.GaussianBlur(apart, (0, 0), max(0.02 * landmarks.interocular, 0.5))
+    colours = []
+    for pixels in (photo.pixels, reference.pixels):
+        colour = (pixels + _DARK) / in_three_channels(np.maximum(_mean(pixels), 0) + _DARK)
+        colours.append(colour / np.maximum(np.median(colour[where][::sample], axis=0), _LEAST_COLOUR))
+    apart = np.abs(colours[0] - colours[1]).max(axis=2).astype(np.float32)
+    unit = max(landmarks.interocular, 1e-3)
+    apart = cv2.GaussianBlur(apart, (0, 0), max(0.02 * unit, 0.5))
+    apart = cv2.dilate(apart, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(margin * unit) + 1,) * 2))
     return np.asarray(np.clip((apart - faint) / max(full - faint, 1e-3), 0, 1) * (mask > 0), np.float32)
 
 

@@ -149,10 +149,13 @@ def boundary(
     broad = np.asarray(cv2.resize(smooth, core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
     # What shines more than skin does is no skin colour: it moves with the skin, and is not multiplied.
     matte = np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32)
+    opening = np.maximum(features.eyes, features.mouth)
     pixels = np.empty_like(photo.pixels)
 
     def strip(rows: slice) -> None:
         before, more = photo.pixels[rows], factor[rows] - 1
+        if opening[rows].any():  # teeth and eyes are no skin, whatever its tone
+            more *= in_three_channels(1 - opening[rows])
         # Where it gets darker everything in the pixel does; where it gets brighter, pores and grain stay what they are.
         off = broad[rows] - before
         skin = before + off * np.clip(2 - np.abs(off) * (1 / _TEXTURE), 0, 1) * (more > 0)

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.detail.rendering import rendering
 from graphface.nodes.makeup.features import Features
-from graphface.nodes.types import Albedo, DetailMap, FloatArray, Mask, Shading
+from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Mask, Shading
 
 Tone = Annotated[float, Field(ge=0, le=1)]
 
@@ -65,6 +66,12 @@ def shading(
     opening = np.maximum(features.eyes, features.mouth)
     factor = 1 + np.float32(lightness(estimated, reference, mask) ** tone - 1) * (1 - opening)
     return shading * factor.reshape(*mask.shape, *[1] * (shading.ndim - 2))
+
+
+@node("makeup.rendered")
+def rendered(photo: Image, albedo: Albedo, shading: Shading) -> Image:
+    """render(rho, F, theta): the painted face before its details, in the photo's encoding and file format."""
+    return photo.with_pixels(np.clip(rendering(albedo, shading), 0, 1))
 
 
 @node("makeup.exposed")

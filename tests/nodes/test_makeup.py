@@ -220,6 +220,17 @@ class TestBoundary:
         assert layer[beyond].mean() > 0.5
         assert np.diff(layer, axis=0)[beyond[1:]].std() < 1.3 * np.diff(photo.pixels, axis=0)[beyond[1:]].std()
 
+    def test_teeth_keep_their_colour(self, face):
+        """Where a mouth is not painted the skin's new tone does not reach into it."""
+        photo, landmarks, mesh, surface, found = face
+        ones = np.ones((200, 200), np.float32)
+        photo, painted = (Image(np.full((200, 200, 3), v, np.float32)) for v in (0.3, 0.6))
+        inner = core(ones, ones, correspond(surface, mesh, surface, mesh), landmarks) * (found.mouth == 0)
+        layer = boundary(photo, painted, inner, found, landmarks).pixels
+        opening = found.mouth > 0.99 * found.mouth.max()
+        assert np.abs(layer - photo.pixels)[opening].max() < 0.3 * (1.1 - found.mouth.max()) + 1e-6
+        assert layer[found.lips > 0.95].mean() > 0.5
+
     def test_nothing_in_common_is_told(self, face):
         """Without any known pixel nothing is painted, and the photo comes back."""
         photo, landmarks, mesh, surface, found = face
@@ -245,6 +256,16 @@ class TestGraph:
         photo = shared / "faces" / "pd_roy-blunt.jpg"
         made = load("makeup").run(["image", "pair.working"], photo=photo, reference=photo)
         assert np.abs(made["image"].pixels - made["pair.working"].pixels).max() <= 2 / 255
+
+    def test_every_picture_of_the_figure(self, shared):
+        """Albedos, rendered shading, detail maps and masks come out by name; without detail, painted is rendered."""
+        faces = shared / "faces"
+        names = ["input_albedo", "reference_albedo", "albedo", "shading", "rendered", "input_detail", "detail", "keep"]
+        names += ["reference_detail", "reference_warped", "core", "coverage", "painted", "image"]
+        made = load("makeup").run(names, photo=faces / "nm_sm1.jpg", reference=faces / "wild_csd00012.jpg")
+        core = made["core"] > 0.9
+        plain = np.clip(made["painted"].pixels - made["detail"].offset, 0, 1)
+        assert np.median(np.abs(plain - made["rendered"].pixels)[core]) < 1e-3
 
     def test_no_strength_no_change(self, shared):
         """Strength 0 returns the input to the last bit."""
