@@ -182,14 +182,24 @@ def masks(
     matting: Annotated[
         list[str] | None, typer.Option(help="none, guided, closed_form or knn; all of them by default.")
     ] = None,
+    noise: Annotated[
+        str | None,
+        typer.Option(help="Instead: how far labels of these photos (a folder, or faces/pd_*.png) jump with noise."),
+    ] = None,
 ) -> None:
-    """Segment the path-traced heads: overlap and boundary error of every label, time and memory, for each matting."""
+    """Segment the path-traced heads: overlap and boundary error of every label, time and memory, for each matting.
+
+    With --noise, segment photos with and without noise of one 8-bit level: overlap of every label with itself.
+    """
     from statistics import fmean, median
 
     from graphface import UsageError
     from graphface.nodes.commands import segmentation_truth as truth
     from graphface.terminal import print_table
 
+    if noise is not None:
+        _print_noise(noise)
+        return
     unknown = [name for name in matting or () if name not in truth.MATTINGS]
     if unknown:
         raise UsageError(f"--matting {unknown[0]!r}: expected {', '.join(truth.MATTINGS)}")
@@ -206,6 +216,18 @@ def masks(
     before = median(row.labels_ms for row in found)
     print_table(("matting", "head", *columns, ">ms", ">MB"), rows)
     print(f"labels up to the classifiers: {before:.0f} ms (median)")
+
+
+def _print_noise(photos: str) -> None:
+    from graphface.mapping import read_map
+    from graphface.nodes.commands.segmentation_noise import segment_noise
+    from graphface.terminal import print_table
+
+    files = [Path(file) for file in read_map(f"photos={photos}")[1]]
+    found = sorted(segment_noise(files), key=lambda one: one.worst)
+    rows = [(one.photo, *(f"{value:.3f}" for value in (*one.overlaps, one.worst))) for one in found]
+    print_table(("photo", ">face", ">hair", ">background", ">worst"), rows)
+    print(f"{sum(one.worst < 0.98 for one in found)} of {len(found)} photos below 0.98")
 
 
 def _mask_figures(rows: list[Segmented], mean: Callable[[Iterable[float]], float]) -> list[str]:

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 TILE = 96
 """Side of a tile, pixels."""
 
+DIRECT = 20_000
+"""Unknown pixels up to which the solve starts at the soft labels themselves."""
+
 NEIGHBORS = 25
 """Pixels that share a 3 x 3 window with a pixel: the entries in a row of the Laplacian."""
 
@@ -46,7 +49,7 @@ def closed_form(
     strands: Annotated[float, Field(gt=0, le=2)] = 0.15,
     ridge: Annotated[float, Field(ge=1e-12, le=1)] = 1e-7,
     trust: Annotated[float, Field(ge=1e-9, le=1)] = 1e-4,
-    tolerance: Annotated[float, Field(gt=0, le=0.1)] = 2e-4,
+    tolerance: Annotated[float, Field(gt=0, le=0.1)] = 1e-3,
 ) -> Segmentation:
     """Alphas of face, hair and background, solved in the band where labels meet.
 
@@ -57,17 +60,50 @@ def closed_form(
         width, strands: half the band's width in inter-ocular distances, in general and between hair and background.
         ridge: Levin's epsilon, for windows of one colour.
         trust: weight of the soft labels inside the band: keeps the solve regular where nothing known is near, and alpha
-            from running along hair into a face of its colour. 1e-5 gives the alphas of Levin's own system within 0.003
-            on average; more is nearer to the truth (hair on path-traced heads: overlap 0.95 at 1e-5, 0.97 at 1e-4).
+            from running along hair into a face of its colour. The default stays within 0.005 of the alphas of Levin's
+            own system on average over a portrait, and is nearer to the truth than less (hair on path-traced heads:
+            overlap 0.967 at 1e-4, 0.966 at 1e-5).
         tolerance: relative residual at which the solve stops.
     """
     band = band_of(labels, max(landmarks.interocular, 1e-3), width=width, strands=strands)
     if band.empty:
         return labels
-    colors = np.clip(np.nan_to_num(photo.pixels[band.part]), 0, 1).astype(np.float64)
-    matrix, right = band_system(colors, band, likeliest_alphas(labels, band.part), ridge)
-    guess = np.stack([labels.face[band.part], labels.hair[band.part]], axis=2)[band.unknown]
-    return merged(labels, band, solve_alphas(matrix, right, guess, trust=trust, tolerance=tolerance))
+    colors = np.clip(np.nan_to_num(photo.pixels[band.part]), 0, 1).astype(np.float32)
+    guess = np.stack([labels.face[band.part], labels.hair[band.part]], axis=2)
+    known = likeliest_alphas(labels, band.part)
+    return merged(labels, band, _solved(colors, band.unknown, known, guess, ridge, trust, tolerance))
+
+
+def _solved(
+    colors: FloatArray,
+    unknown: NDArray[np.bool_],
+    known: FloatArray,
+    guess: FloatArray,
+    ridge: float,
+    trust: float,
+    tolerance: float,
+) -> FloatArray:
+    """Alphas of the unknown pixels (n, 2), from a start that was solved for at half the size where there are many.
+
+    What takes conjugate gradients long is what varies slowly over the band, and a residual hardly shows that it is
+    still missing. The small picture has it right at a quarter of the cost.
+    """
+    import cv2
+
+    start = None
+    if np.count_nonzero(unknown) > DIRECT:
+        height, width = unknown.shape
+        size = ((width + 1) // 2, (height + 1) // 2)
+
+        def half(values: FloatArray) -> FloatArray:
+            return np.asarray(cv2.resize(values, size, interpolation=cv2.INTER_AREA), np.float32)
+
+        small, coarse = half(unknown.astype(np.float32)) > 0, half(guess)
+        coarse[small] = _solved(half(colors), small, half(known), coarse, ridge, trust, tolerance)
+        start = np.asarray(cv2.resize(coarse, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)[unknown]
+    band = Band((slice(0, unknown.shape[0]), slice(0, unknown.shape[1])), unknown)
+    matrix, right = band_system(colors.astype(np.float64), band, known, ridge)
+    return solve_alphas(matrix, right, guess[unknown], trust=trust, tolerance=tolerance, start=start)
 
 
 def band_system(

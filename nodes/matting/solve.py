@@ -24,35 +24,42 @@ SHIFTS = (1e-2, 0.1, 1.0, 10.0)
 
 
 def solve_alphas(
-    matrix: Any, right: NDArray[np.float64], guess: FloatArray, *, trust: float, tolerance: float
+    matrix: Any,
+    right: NDArray[np.float64],
+    guess: FloatArray,
+    *,
+    trust: float,
+    tolerance: float,
+    start: FloatArray | None = None,
 ) -> FloatArray:
     """The x that solves (matrix + trust I) x = right + trust guess, float32 (n, columns of `right`).
 
     Args:
-        matrix: sparse (n, n), symmetric, positive semi-definite. guess: (n, k), where the solve starts, and what rules
-            where the matrix says nothing.
+        matrix: sparse (n, n), symmetric, positive semi-definite. guess: (n, k), what rules where the matrix says
+            nothing. start: (n, k), where the solve starts; the guess where there is none.
         tolerance: relative residual.
 
     Falls back, with a warning, on a diagonal preconditioner where the incomplete Cholesky factorization fails, on the
-    best iterate where the solve does not converge, and on the guess where it is not finite.
+    best iterate where the solve does not converge, and on the start where it is not finite.
     """
     from scipy.sparse import identity
     from scipy.sparse.linalg import LinearOperator, cg
 
-    start = np.clip(np.nan_to_num(guess.astype(np.float64)), 0, 1)
+    trusted = np.clip(np.nan_to_num(guess.astype(np.float64)), 0, 1)
+    begun = trusted if start is None else np.clip(np.nan_to_num(start.astype(np.float64)), 0, 1)
     system = (matrix + trust * identity(matrix.shape[0], format="csr")).tocsr()
-    target = right + trust * start
+    target = right + trust * trusted
     inverse = LinearOperator(system.shape, _preconditioner(system), dtype=np.float64)
-    alphas = np.empty_like(start)
-    for k in range(start.shape[1]):
-        first = float(np.linalg.norm(target[:, k] - system @ start[:, k]))
+    alphas = np.empty_like(begun)
+    for k in range(begun.shape[1]):
+        first = float(np.linalg.norm(target[:, k] - system @ begun[:, k]))
         least = max(tolerance * max(float(np.linalg.norm(target[:, k])), first), 1e-12)
-        x, status = cg(system, target[:, k], x0=start[:, k], rtol=0, atol=least, maxiter=STEPS, M=inverse)
+        x, status = cg(system, target[:, k], x0=begun[:, k], rtol=0, atol=least, maxiter=STEPS, M=inverse)
         if status != 0:
             warn(f"matting: conjugate gradients did not reach {tolerance:g} in {STEPS} steps; taken as they are")
         if not np.isfinite(x).all():
             warn("matting: the solve is not finite; the labels' own softness is taken")
-            x = start[:, k]
+            x = begun[:, k]
         alphas[:, k] = x
     return alphas.astype(np.float32)
 
