@@ -257,7 +257,8 @@ class Mesh:
     `vertices` float32 (V, 3); `triangles` int32 (T, 3), counter-clockwise seen from outside; `normals` float32 (V, 3)
     unit; `camera` takes vertices to pixels; `interocular` in pixels. `uv` float32 (V, 2) in [0, 1], v up: where the
     model's texture has each vertex. `mirror` int32 (V,): the vertex that each becomes in a mirror, where that is known.
-    `fit` where a model was fitted.
+    `facemesh` int32 (468,): the vertex at each of FaceMesh's points, -1 where there is none. `fit` where a model was
+    fitted.
     """
 
     vertices: FloatArray
@@ -267,6 +268,7 @@ class Mesh:
     interocular: float
     uv: FloatArray | None = None
     mirror: NDArray[np.int32] | None = None
+    facemesh: NDArray[np.int32] | None = None
     fit: FitRecord | None = None
 
     @staticmethod

@@ -45,4 +45,5 @@ def facemesh(landmarks: Landmarks, *, depth: Annotated[float, Field(gt=0, le=4)]
         interocular=landmarks.interocular,
         uv=cylinder(topology.mean).astype(np.float32),
         mirror=topology.mirror,
+        facemesh=np.arange(len(vertices), dtype=np.int32),
     )

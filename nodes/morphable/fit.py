@@ -300,6 +300,7 @@ def _mesh(ready: _Ready, task: _Task, solution: Solution, index: int) -> Mesh:
         interocular=_between_eyes(model, vertices, view.scale),
         uv=model.uv,
         mirror=mirror_vertices(model),
+        facemesh=model.landmarks.get("facemesh468"),
         fit=FitRecord(
             model=model.name,
             identity=coefficients[:split].astype(np.float32),

@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from graphface import node, warn
 from graphface.nodes.masks.head import CRANIUM
+from graphface.nodes.morphable.normals import vertex_normals
 from graphface.nodes.morphable.topology import FOREHEAD, facemesh_topology
 from graphface.nodes.render.neck import Points, Solid, grid_triangles, neck, underside
 from graphface.nodes.types import Mesh
 
-_POINTS = 468
-"""The built-in meshes begin with the points of FaceMesh."""
+_LEAST_POINTS = 100
+"""Points of FaceMesh that must be known on a mesh to say how the head stands."""
 
 _BEHIND = 0.2
 """How far the skull stays behind the middle of the face, as a share of its size, so that it does not poke through."""
@@ -44,7 +45,8 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     """A face mesh with a cranium and a neck of average size behind it, in the face's own pose.
 
     Args:
-        mesh: of `geometry.*`. Where its pose is not known (other points than FaceMesh's) it comes back as it is.
+        mesh: of `geometry.*`. Where its pose is not known (`Mesh.facemesh` tells of few points, or of wrong ones) it
+            comes back as it is.
         solids: False leaves the mesh as it is, to see what they are good for.
 
     Returns:
@@ -52,15 +54,16 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     """
     if not solids:
         return mesh
-    pose = _pose(mesh)
+    face = _face_points(mesh)
+    known = np.isfinite(face).all(axis=1)
+    pose = _pose(face[known], known)
     if pose is None:
         warn("render.head: the mesh tells no pose of the face; light beyond it is continued without a head")
         return mesh
     rotation, scale, middle = pose
-    own = (mesh.vertices[:_POINTS].astype(np.float64) - middle) @ rotation / scale
+    own = np.where(known[:, None], (face - middle) @ rotation / scale, facemesh_topology().mean)
     jaw = _jaw()
-    edge_normals = mesh.normals[jaw].astype(np.float64) @ rotation
-    parts = [_skull(own), neck(), underside(own[jaw], edge_normals)]
+    parts = [_skull(own), neck(), underside(own[jaw], _outward(own)[jaw])]
     vertices, normals, triangles = [mesh.vertices], [mesh.normals], [mesh.triangles]
     count = len(mesh.vertices)
     for points, outward, faces in parts:
@@ -77,14 +80,20 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     )
 
 
-def _pose(mesh: Mesh) -> tuple[Points, float, Points] | None:
-    """Rotation, scale and origin of the mean face in the camera frame (Umeyama 1991)."""
-    if len(mesh.vertices) < _POINTS:
+def _face_points(mesh: Mesh) -> Points:
+    """Where the 468 points of FaceMesh lie, NaN where the mesh does not know them."""
+    face = np.full(facemesh_topology().mean.shape, np.nan)
+    if mesh.facemesh is not None and len(mesh.facemesh) == len(face):
+        known = (mesh.facemesh >= 0) & (mesh.facemesh < len(mesh.vertices))
+        face[known] = mesh.vertices[mesh.facemesh[known]]
+    return face
+
+
+def _pose(points: Points, known: NDArray[np.bool_]) -> tuple[Points, float, Points] | None:
+    """Rotation, scale and origin of the mean face in the camera frame, by its known points (Umeyama 1991)."""
+    if len(points) < _LEAST_POINTS:
         return None
-    mean = facemesh_topology().mean.astype(np.float64)
-    points = mesh.vertices[:_POINTS].astype(np.float64)
-    if not np.isfinite(points).all():
-        return None
+    mean = facemesh_topology().mean[known].astype(np.float64)
     from_middle, to_middle = mean.mean(axis=0), points.mean(axis=0)
     u, sizes, vt = np.linalg.svd((points - to_middle).T @ (mean - from_middle))
     sign = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
@@ -95,6 +104,11 @@ def _pose(mesh: Mesh) -> tuple[Points, float, Points] | None:
     apart = (points - to_middle) / scale - (mean - from_middle) @ rotation.T
     strange = float(np.sqrt(np.square(apart).sum(axis=1).mean())) > _STRANGE
     return None if strange else (rotation, scale, to_middle - scale * rotation @ from_middle)
+
+
+def _outward(face: Points) -> Points:
+    """Unit normals of a face given by FaceMesh's points, (468, 3)."""
+    return vertex_normals(face, facemesh_topology().triangles).astype(np.float64)
 
 
 def _skull(face: Points) -> Solid:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -75,6 +77,29 @@ class TestHead:
         surface = rasterize(head(face_mesh(unit=60.0)), Image(np.zeros((240, 260, 3), np.float32)))
         assert surface.normals[159, 80 + 52, 1] > 0.3
         assert surface.normals[159, 80 - 52, 1] > 0.3
+
+    def test_points_in_another_order(self):
+        """A model with vertices of its own has the same head, by the points that it knows."""
+        mesh = face_mesh()
+        order = np.random.default_rng(1).permutation(468)
+        place = np.argsort(order).astype(np.int32)
+        other = replace(
+            mesh,
+            vertices=mesh.vertices[order],
+            normals=mesh.normals[order],
+            triangles=place[mesh.triangles],
+            facemesh=place,
+        )
+        np.testing.assert_allclose(head(other).vertices[468:], head(mesh).vertices[468:], atol=1e-3)
+        some = np.where(np.arange(468) % 30 == 0, -1, place).astype(np.int32)
+        apart = head(replace(other, facemesh=some)).vertices[468:] - head(mesh).vertices[468:]
+        assert np.abs(apart).max() < 0.1 * mesh.interocular
+
+    def test_points_nobody_knows(self):
+        """A mesh that does not tell its points comes back, with a warning."""
+        mesh = replace(face_mesh(), facemesh=None)
+        with pytest.warns(match="no pose"):
+            assert head(mesh) is mesh
 
     def test_points_of_another_kind(self):
         """A mesh whose first points are not FaceMesh's tells no pose: it comes back, with a warning."""
