@@ -59,6 +59,7 @@ VARIANTS = (
     Variant("no shadows", shadow="none"),
     Variant("hard shadows", shadow="hard"),
     Variant("no head behind the face", set={"face/head.solids": False}),
+    Variant("light by plain least squares", set={"face/light.robust": "none"}),
     Variant("second-order SH", set={"face/light.order": 2}),
     Variant("scatter.gaussian 0.03", replace={"scatter": "scatter.gaussian"}, scene={"scatter": 0.03}),
     Variant("scatter.screen_space 0.03", scene={"scatter": 0.03}),

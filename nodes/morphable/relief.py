@@ -2,14 +2,17 @@
 
 A landmark network's depth has habits: chins, lips and eye sockets too flat, cheeks and noses too steep. What is common
 to all faces can be measured once, as the mean difference between true and fitted normals at each vertex, and undone:
-the mean shape is moved along its own normals until it has that difference. The fit's points in a frontal picture hardly
-move, and depth and shadows agree with the normals, which a mere correction of normals could not promise.
+the mean shape is moved until it has that difference. Depth and shadows then agree with the normals, which a mere
+correction of normals could not promise.
 
 Moving a surface by h(x) along its normal n turns the normal by minus the gradient of h, so that
 
     min_h  sum_v w_v |-grad h(v) - d(v)|^2  +  smoothness |Laplace h|^2  +  ridge |h|^2
 
-is a linear problem, in as many unknowns as the coarse model has vertices; w_v is the number of faces that show v.
+is a linear problem, in as many unknowns as the coarse model has vertices; w_v is the number of faces that show v. The
+vertices themselves are moved in depth only, by h over n_z: the surface comes to lie in the same place, and the points
+that a model is fitted to stay where they are in a frontal picture. (Moved along their normals they leave twice the
+residual on portraits, and normals of unseen heads are 11.6 instead of 11.3 degrees off.)
 """
 
 from __future__ import annotations
@@ -29,6 +32,9 @@ from graphface.nodes.morphable.subdivide import loop
 from graphface.nodes.types import FloatArray, Mask, Mesh, Normals, Surface
 
 Array = NDArray[np.float64]
+
+_STEEP = 0.7
+"""Where the surface turns away from the front by more than this cosine, depth moves it by less than was wanted."""
 
 _LEAST_PIXELS = 2.0
 """Pixels of a face that a vertex must have for the face to count there."""
@@ -72,7 +78,7 @@ def normal_difference(mesh: Mesh, surface: Surface, true_normals: Normals, where
 def learned_relief(
     coarse: MorphableModel, levels: int, faces: Sequence[Difference], *, smoothness: float = 50.0, ridge: float = 0.1
 ) -> FloatArray:
-    """How far each vertex of a coarse model's mean is to move along its normal: float32 (V,), mirror-symmetric.
+    """How far a coarse model's mean surface is to move along its normal: float32 (V,), mirror-symmetric.
 
     Args:
         levels: how often the model was subdivided where the `faces` were measured.
@@ -101,12 +107,13 @@ def learned_relief(
 
 
 def with_relief(coarse: MorphableModel, relief: FloatArray) -> MorphableModel:
-    """The model with its mean moved along its normals by `relief` (V,)."""
-    moves = relief[:, None] * vertex_normals(coarse.mean.astype(np.float64), coarse.triangles)
+    """The model with its mean's surface moved outwards by `relief` (V,), in depth."""
+    facing = vertex_normals(coarse.mean.astype(np.float64), coarse.triangles)[:, 2]
+    deeper = relief / np.maximum(facing, np.float32(_STEEP))
     partners = mirror_vertices(coarse)
     if partners is not None:
-        moves = (moves + moves[partners] * np.array([-1, 1, 1], np.float32)) / 2  # what lies in the middle stays there
-    return replace(coarse, mean=(coarse.mean + moves).astype(np.float32))
+        deeper = (deeper + deeper[partners]) / 2
+    return replace(coarse, mean=(coarse.mean + deeper[:, None] * np.array([0, 0, 1], np.float32)).astype(np.float32))
 
 
 def _gradient(points: Array, triangles: NDArray[np.int32]) -> Any:

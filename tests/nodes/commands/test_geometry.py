@@ -30,17 +30,18 @@ def mean(rows, geometry, field):
 
 
 class TestGeometryTruth:
-    def test_the_fit_is_best_and_the_average_worst(self, rows):
-        """Mean angle of normals over heads and lights: fit, then the network's own depth, then the average."""
+    def test_the_fit_is_best(self, rows):
+        """Mean angle of normals over heads and lights: fit, then the average (by its relief), then the network's own
+        depth."""
         fitted, direct, average = (
             mean(rows, name, "normals") for name in ("morphable, builtin", "facemesh", "average, builtin")
         )
-        assert fitted < direct - 0.1
-        assert direct < average - 0.3
+        assert fitted < average - 0.5
+        assert average < direct - 0.3
 
     def test_keeps_its_quality(self, rows):
-        """Figures stay near what was reached: 13.8 degrees, 5.7 % of the eye distance, depth correlation 0.87."""
-        assert mean(rows, "morphable, builtin", "normals") < 14.1
+        """Figures stay near what was reached: 11.0 degrees, 5.7 % of the eye distance, depth correlation 0.87."""
+        assert mean(rows, "morphable, builtin", "normals") < 11.4
         assert mean(rows, "morphable, builtin", "landmarks") < 6.1
         assert mean(rows, "morphable, builtin", "depth") > 0.84
 
