@@ -58,4 +58,4 @@ def shaken(name: str, photo: Image, landmarks: Landmarks, seeds: int = 2) -> Sha
 
 def _likeliest(photo: Image, landmarks: Landmarks) -> NDArray[np.intp]:
     labels = guided(photo, segment_photo(photo, landmarks), landmarks)
-    return np.stack([labels.face, labels.hair, labels.background]).argmax(axis=0)
+    return np.asarray(np.stack([labels.face, labels.hair, labels.background]).argmax(axis=0))

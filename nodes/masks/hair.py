@@ -193,7 +193,9 @@ def shiny(mixture: Mixture, skin: Mixture) -> FloatArray:
     spread = np.sqrt((skin.weights @ (between + np.diagonal(skin.covariances, axis1=1, axis2=2)[:, 1:3])).sum())
     away = mixture.means - middle
     hue = np.hypot(away[:, 1], away[:, 2]) / max(float(spread), 1e-6)
-    return sigmoid((away[:, 0] - SHINE) / SHINE_SLOPE) * sigmoid((SHINE_HUE - hue) / SHINE_HUE_SLOPE)
+    bounds = ((away[:, 0] - SHINE) / SHINE_SLOPE, (SHINE_HUE - hue) / SHINE_HUE_SLOPE)
+    lighter, alike = (sigmoid(bound.astype(np.float32)) for bound in bounds)
+    return np.asarray(lighter * alike, np.float32)
 
 
 def rival_likelihood(samples: FloatArray, rivals: list[Mixture]) -> FloatArray:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from portraits import BACKDROP, HAIR, SKIN, portrait, surface_of
 
-from graphface.nodes.masks.classify import classify
+from graphface.nodes.masks.classify import apart, classify
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
@@ -57,6 +57,25 @@ class TestHair:
         photo, landmarks, _ = portrait(120)
         seen, masks, _ = stages(photo, landmarks)
         check_node(hair, seen, masks, landmarks)
+
+
+class TestApart:
+    def test_what_hangs_on_the_root_stays(self):
+        """A lock that touches the root is not apart, one across a gap of half a unit is."""
+        belief = np.zeros((60, 90), np.float32)
+        belief[20:40, 5:50] = belief[20:40, 65:85] = 1
+        root = np.zeros(belief.shape, bool)
+        root[20:40, 5:10] = True
+        found = apart(belief, root, 30.0)
+        assert found[30, [8, 28, 40]].max() == 0
+        assert found[30, 75] == 1
+
+    def test_moves_little_with_belief(self, rng):
+        """A hundredth less belief everywhere changes no pixel by more than a few hundredths."""
+        belief = np.kron(rng.uniform(0.2, 1, (6, 9)), np.ones((10, 10))).astype(np.float32)
+        root = np.zeros(belief.shape, bool)
+        root[:10, :10] = True
+        assert np.abs(apart(belief, root, 30.0) - apart(belief - 0.01, root, 30.0)).max() < 0.25
 
 
 class TestClassify:
