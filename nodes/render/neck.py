@@ -27,7 +27,7 @@ SECTIONS = (
 their place under the chin is that of the anthropometric neck in `graphface.nodes.masks.head`. They end where the neck
 does: shoulders need not face as the head does, and a head's shadow on shoulders that are elsewhere is a blotch.
 
-On path-traced heads 28.5 against 28.2 dB for a plain cylinder, 26.0 against 25.6 with light from above. (Going on with
+On path-traced heads 28.5 against 28.1 dB for a plain cylinder, 26.0 against 25.5 with light from above. (Going on with
 shoulders of average breadth adds nothing.)"""
 
 _DROP = 0.10
