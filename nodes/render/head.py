@@ -55,7 +55,7 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     if not solids:
         return mesh
     face = _face_points(mesh)
-    known = np.isfinite(face).all(axis=1)
+    known = np.asarray(np.isfinite(face).all(axis=1))
     pose = _pose(face[known], known)
     if pose is None:
         warn("render.head: the mesh tells no pose of the face; light beyond it is continued without a head")
