@@ -75,9 +75,9 @@ def _bent(picture: FloatArray, before: FloatArray, shoulder: float, out: FloatAr
         out[...] = _shouldered(picture, out, before, black, white, shoulder)
     elif count:
         places = np.flatnonzero(differs)
-        some = (values.reshape(-1).take(places) for values in (picture, out, before))
-        limits = (limit.reshape(-1).take(places) if limit.ndim else limit for limit in (black, white))
-        out.reshape(-1)[places] = _shouldered(*some, *limits, shoulder)
+        few, knees, start = (values.reshape(-1).take(places) for values in (picture, out, before))
+        low, high = (limit.reshape(-1).take(places) if limit.ndim else limit for limit in (black, white))
+        out.reshape(-1)[places] = _shouldered(few, knees, start, low, high, shoulder)
 
 
 _FEW = 8

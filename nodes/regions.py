@@ -7,7 +7,7 @@ whatever its pose and expression. Left and right are the person's own.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Annotated
 
@@ -33,6 +33,9 @@ MOUTH = (61, 185, 40, 39, 37, 0, 267, 269, 270, 409, 291, 375, 321, 405, 314, 17
 RIGHT_CHEEK = (117, 118, 101, 36, 206, 216, 192, 213, 147, 123)
 FOREHEAD = (54, 103, 67, 109, 10, 338, 297, 332, 284, 298, 333, 299, 337, 9, 108, 69, 104, 68)
 """Contours by FaceMesh's own vertex indices (MediaPipe's published topology); left ones are their mirror images."""
+
+_FINEST = 100.0
+"""Pixels per inter-ocular distance that regions are drawn with at the most; their edges are several of them wide."""
 
 _GROW = {"brow": 0.03, "eye": 0.07, "nose": 0.02, "mouth": 0.06, "cheek": 0.08, "forehead": 0.03}
 """How far a region reaches beyond its contour, inter-ocular distances: an eye has lids."""
@@ -67,9 +70,8 @@ def nine(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.08) -> Re
     Raises:
         UsageError: the landmarks follow another scheme.
     """
-    x, y, covered = face_coordinates(photo, landmarks)
     drawn = atlas(softness)
-    return Regions(*(_looked_up(drawn[name], x, y) * covered for name in NAMES))
+    return Regions(*_projected([drawn[name] for name in NAMES], photo, landmarks))
 
 
 @node("regions.features")
@@ -78,10 +80,26 @@ def features(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.12) -
 
     Args, errors: as `regions.nine`.
     """
-    x, y, covered = face_coordinates(photo, landmarks)
     drawn = atlas(softness)
     names = ("left_brow", "right_brow", "left_eye", "right_eye", "nose", "mouth")
-    return np.minimum(_looked_up(sum(drawn[name] for name in names), x, y), 1) * covered  # type: ignore[arg-type]
+    together = np.minimum(np.sum([drawn[name] for name in names], axis=0), 1).astype(np.float32)
+    return _projected([together], photo, landmarks)[0]
+
+
+def _projected(drawn: list[FloatArray], photo: Image, landmarks: Landmarks) -> list[Mask]:
+    """Maps of the atlas on a photo, H x W each; 0 off the face. They are soft, so a small copy of the photo will do."""
+    import cv2
+
+    scale = min(1.0, _FINEST / max(landmarks.interocular, 1e-3))
+    height, width = (max(1, round(n * scale)) for n in (photo.height, photo.width))
+    if scale < 1:
+        sides = np.array([width / photo.width, height / photo.height, scale], np.float32)
+        middle = np.float32([0.5, 0.5, 0])  # pixel centres are at whole numbers
+        landmarks = replace(landmarks, points=(landmarks.points + middle) * sides - middle)
+    x, y, covered = face_coordinates(Image(np.broadcast_to(np.float32(0), (height, width, 3))), landmarks)
+    full = (photo.width, photo.height)
+    maps = [_looked_up(map_, x, y) * covered for map_ in drawn]
+    return [np.asarray(cv2.resize(map_, full, interpolation=cv2.INTER_LINEAR), np.float32) for map_ in maps]
 
 
 def face_coordinates(photo: Image, landmarks: Landmarks) -> tuple[FloatArray, FloatArray, FloatArray]:

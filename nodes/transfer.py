@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.blur import blurred
 from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.regions import Regions
@@ -212,17 +213,11 @@ def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float |
     window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     share = mask[window][..., None]
     difference = other[window] - own[window]
-    band = difference if finest < 0.3 else _smooth(difference, finest)
+    band = difference if finest < 0.3 else blurred(difference, finest)
     if broadest is not None:
         weight = np.minimum(share, 1)
-        broad = _smooth(np.dstack([difference * weight, weight]), max(broadest, 0.5))
+        broad = blurred(np.dstack([difference * weight, weight]), max(broadest, 0.5))
         band = band - broad[..., :3] / np.maximum(broad[..., 3:], np.float32(1e-3))
     changed = own.copy()
     changed[window] += share * band
     return changed
-
-
-def _smooth(values: FloatArray, sigma: float) -> FloatArray:
-    import cv2
-
-    return np.asarray(cv2.GaussianBlur(values, (0, 0), sigma, borderType=cv2.BORDER_CONSTANT), np.float32)

@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.blur import blurred
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
 
@@ -79,15 +80,13 @@ def detail(
 
 def _blended(own: FloatArray, other: FloatArray, keep: Mask, opening: Mask, sigma: float) -> FloatArray:
     """other + keep * (fine(own) - fine(other)), and `own` in the openings. Taking the fine part is linear: one blur."""
-    import cv2
-
     rows, columns = np.flatnonzero(keep.any(axis=1)), np.flatnonzero(keep.any(axis=0))
     if rows.size == 0:
         return other
     blended = other.copy()
     window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     difference = own[window] - other[window]
-    broad = cv2.GaussianBlur(difference, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE)
+    broad = blurred(difference, sigma)
     open_part = opening[window][..., None]
     share = keep[window][..., None] * (1 - open_part)
     blended[window] += share * (difference - broad) + open_part * difference

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from graphface import UsageError, node, warn
 from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Mask, Mesh, Surface
 from graphface.nodes.warp.correspondence import Correspondence, Pins
 
@@ -68,8 +69,9 @@ def mesh(
         if hidden == "mirror":
             warn("warp.mesh: this mesh has no known mirror image; what the reference hides stays the input's")
         return Correspondence(places, inside, valid, size)
-    mirrored, mirrored_valid = _carried(surface, reference_mesh, own, shown, mirror, masks, size)
-    mirrored_valid *= np.clip((0.5 - valid) * 2, 0, 1)
+    needed = np.clip((0.5 - valid) * 2, 0, 1)
+    mirrored, mirrored_valid = _carried(surface, reference_mesh, own, shown, mirror, masks, size, needed)
+    mirrored_valid *= needed
     return Correspondence(places, inside, valid, size, mirrored, mirrored_valid)
 
 
@@ -94,26 +96,35 @@ def _carried(
     vertex: NDArray[Any],
     masks: tuple[Mask, Mask] | None,
     size: tuple[int, int],
+    needed: Mask | None = None,
 ) -> tuple[FloatArray, Mask]:
-    """Places H x W x 2 and validity H x W, where vertex k of the input's mesh is vertex[k] of the reference's."""
+    """Places H x W x 2 and validity H x W, where vertex k of the input's mesh is vertex[k] of the reference's.
+
+    `needed`: where it is 0 the answer is of no use, and is 0.
+    """
     positions = reference.vertices[vertex]
     valid_at = np.minimum((shown[vertex] + _UNSEEN) / (own + _UNSEEN), 1)
     of_vertex = np.column_stack([positions, valid_at]).astype(np.float32)
     triangles = reference.triangles
     rows, columns = _window(surface.coverage > 0)
-    seen = surface.triangle[rows, columns]
-    weights = surface.barycentric[rows, columns]
-    carried = np.zeros((*seen.shape, 4), np.float32)
-    for k in range(3):
-        carried += weights[..., k, None] * of_vertex[triangles[:, k]].take(seen, axis=0, mode="clip")
+    seen, weights = surface.triangle[rows, columns], surface.barycentric[rows, columns]
+    wanted = seen >= 0 if needed is None else (seen >= 0) & (needed[rows, columns] > 0)
+    tables = [of_vertex[triangles[:, k]] for k in range(3)]
     places = np.zeros((*surface.coverage.shape, 2), np.float32)
     valid = np.zeros(surface.coverage.shape, np.float32)
-    on_mesh = seen >= 0
-    # The weights are those of the point in space, so points in space are what they may mix; only then is it projected.
-    places[rows, columns] = reference.camera.project(carried[..., :3]) * on_mesh[..., None]
-    (height, width), (x, y) = size, (places[rows, columns, 0], places[rows, columns, 1])
-    in_frame = (x >= -0.5) & (x <= width - 0.5) & (y >= -0.5) & (y <= height - 0.5)
-    valid[rows, columns] = carried[..., 3] * (on_mesh & in_frame)
+    height, width = size
+
+    def carry(strip: slice) -> None:
+        row, column = np.nonzero(wanted[strip])
+        triangle, weight = seen[strip][row, column], weights[strip][row, column]
+        carried = sum(weight[:, k, None] * tables[k].take(triangle, axis=0) for k in range(3))
+        # The weights are those of the point in space, so it is points in space that they may mix.
+        at = reference.camera.project(carried[:, :3])
+        inside = ((at >= -0.5) & (at <= np.array([width, height]) - 0.5)).all(axis=1)
+        pixels = row + rows.start + strip.start, column + columns.start
+        places[pixels], valid[pixels] = at, carried[:, 3] * inside
+
+    by_strips(carry, (*seen.shape, 4))
     if masks is not None:
         unseen = np.float32(_UNSEEN)
         valid *= np.minimum((_sampled(masks[1], places) + unseen) / (masks[0] + unseen), 1)
