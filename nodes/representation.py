@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphface import UnreadableFile, UnwritableFile, node
+from graphface.nodes.render.spread import Surroundings
 from graphface.nodes.types import (
     Albedo,
     DetailMap,
@@ -40,6 +41,7 @@ class Representation:
     head: Mesh
     head_surface: Surface
     head_mask: Mask
+    surroundings: Surroundings
     albedo: Albedo
     shading: Shading
     light: Lighting
@@ -105,6 +107,7 @@ def bundle(
     head: Mesh,
     head_surface: Surface,
     head_mask: Mask,
+    surroundings: Surroundings,
     albedo: Albedo,
     shading: Shading,
     light: Lighting,

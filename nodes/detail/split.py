@@ -78,7 +78,8 @@ def split(
         np.subtract(source[rows], gain[rows] * rendered[rows], out=offset[rows])
 
     by_strips(part, source.shape)
-    ceiling = None if source is photo.pixels else photo.pixels
+    # A copy: what shares memory with a photo that the caller owns is not remembered.
+    ceiling = None if source is photo.pixels else photo.pixels.copy()
     return DetailMap(offset=offset, gain=gain, pivot=rendered, ceiling=ceiling)
 
 

@@ -11,6 +11,7 @@ from graphface import UnreadableFile
 from graphface.cache.digest import digest_value
 from graphface.nodes import detail, sh
 from graphface.nodes.intrinsic.intensity import intensity
+from graphface.nodes.render.spread import surroundings
 from graphface.nodes.representation import Representation, bundle, given
 from graphface.nodes.types import Camera, Image, Landmarks, Lighting, Mesh, Segmentation, Surface
 
@@ -39,6 +40,7 @@ def representation(rng):
         head=mesh,
         head_surface=surface,
         head_mask=plane,
+        surroundings=surroundings(plane, surface, landmarks),
         albedo=parts.albedo,
         shading=parts.shading,
         light=light,
