@@ -28,7 +28,7 @@ def shadow_maps(
     receivers: Samples,
     scene: Scene,
     *,
-    resolution: Annotated[int, Field(ge=1, le=4096)] = 320,
+    resolution: Annotated[int, Field(ge=1, le=4096)] = 256,
     samples: Annotated[int, Field(ge=1, le=256)] = 12,
     lift: Annotated[float, Field(ge=0, le=0.5)] = 0.02,
     smoothing: Annotated[float, Field(ge=0, le=0.5)] = 0.02,

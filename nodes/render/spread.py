@@ -32,13 +32,16 @@ Resolution = Annotated[int, Field(ge=8, le=256)]
 class Surroundings:
     """How a shading goes on beyond a face: all of `render.spread` that the light does not change.
 
-    `weight` H x W is the soft mask where there is a surface. On the small copy, h x w: `total`, the weight's area
-    means; `nearest` intp, the place of the face pixel that each pixel copies, counted row by row; `far` 0..1, how much
-    of the wider of two blurs it takes; `sigma`, the narrower's width in pixels. All but `weight` are empty without a
-    face.
+    `weight` H x W is the soft mask where there is a surface. The small copy has cells of `cell` x `cell` pixels, h x w
+    of them; the face lies in the cells `window` (top, bottom, left, right). `total` are the weight's means over the
+    window's cells; `nearest` intp h x w, the place of the face cell that each cell copies, counted row by row in the
+    window; `far` h x w, 0..1, how much of the wider of two blurs it takes; `sigma`, the narrower's width in cells.
+    Without a face all but `weight` are empty.
     """
 
     weight: Mask
+    cell: int
+    window: tuple[int, int, int, int]
     total: FloatArray
     nearest: NDArray[np.intp]
     far: FloatArray
@@ -60,21 +63,32 @@ def surroundings(
         mask: the face; between 0 and 1 its shading goes over into the continued one.
         surface: only where it covers the picture is the shading known.
         smoothing: width of the blur beside the face, in inter-ocular distances; it triples with distance.
-        resolution: pixels per inter-ocular distance of the small copy that is worked on.
+        resolution: least cells per inter-ocular distance of the small copy that is worked on.
     """
     weight = mask * (surface.coverage > 0)
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    total = _shrunk(weight, scale)
-    sigma = max(smoothing * landmarks.interocular * scale, 0.5)
+    cell = max(1, min(int(landmarks.interocular / resolution), *weight.shape))
+    total = _means(weight, cell)
+    sigma = max(smoothing * landmarks.interocular / cell, 0.5)
     core = _core(total)
     if core is None:
         warn(
             "render.surroundings: the mask is empty; shading is taken as 0 everywhere, so no light changes the picture"
         )
         nothing = np.zeros((0, 0), np.float32)
-        return Surroundings(weight, nothing, np.zeros((0, 0), np.intp), nothing, sigma)
+        return Surroundings(weight, cell, (0, 0, 0, 0), nothing, np.zeros((0, 0), np.intp), nothing, sigma)
     nearest, distance = _nearest(core)
-    return Surroundings(weight, total, nearest, _smooth_step(distance / np.float32(4 * sigma)), sigma)
+    down, across = (np.flatnonzero(core.any(axis=axis)) for axis in (1, 0))
+    top, bottom, left, right = window = (int(down[0]), int(down[-1]) + 1, int(across[0]), int(across[-1]) + 1)
+    row, column = np.divmod(nearest, core.shape[1])
+    return Surroundings(
+        weight=weight,
+        cell=cell,
+        window=window,
+        total=np.ascontiguousarray(total[top:bottom, left:right]),
+        nearest=(row - top) * (right - left) + (column - left),
+        far=_smooth_step(distance / np.float32(4 * sigma)),
+        sigma=sigma,
+    )
 
 
 @node("render.spread")
@@ -87,36 +101,54 @@ def spread(shading: Shading, surroundings: Surroundings) -> Shading:
     Returns:
         float32 of the shape of `shading`: `shading` where the mask is 1, defined everywhere.
     """
-    weight = surroundings.weight
-    if surroundings.total.size == 0:
-        return np.zeros_like(shading)
-    small = _small(shading, surroundings)
-    nearest = small.reshape(-1, *small.shape[2:]).take(surroundings.nearest, axis=0)
-    near, far = (blurred(nearest, sigma) for sigma in (surroundings.sigma, 3 * surroundings.sigma))
-    beyond = _enlarged(near + (far - near) * _like(surroundings.far, shading), weight.shape)
-
-    def join(rows: slice) -> None:
-        inside = shading[rows] - beyond[rows]
-        inside *= _like(weight[rows], shading)
-        beyond[rows] += inside
-
-    by_strips(join, beyond.shape)
-    return beyond
-
-
-def _small(shading: Shading, surroundings: Surroundings) -> FloatArray:
-    """The shading's weighted area means in the small copy."""
     import cv2
 
-    height, width = surroundings.total.shape
-    weighted = np.empty_like(shading)
+    weight, cell = surroundings.weight, surroundings.cell
+    if surroundings.total.size == 0:
+        return np.zeros_like(shading)
+    on_face = _on_face(shading, surroundings)
+    nearest = on_face.reshape(-1, *on_face.shape[2:]).take(surroundings.nearest, axis=0)
+    near, far = (blurred(nearest, sigma) for sigma in (surroundings.sigma, 3 * surroundings.sigma))
+    small = near + (far - near) * _like(surroundings.far, shading)
+    size = small.shape[1] * cell, small.shape[0] * cell
+    beyond = np.asarray(cv2.resize(small, size, interpolation=cv2.INTER_LINEAR), np.float32)
+    whole = np.empty(shading.shape, np.float32)
+    width = shading.shape[1]
+
+    def join(rows: slice) -> None:
+        outside = beyond[rows, :width]
+        inside = np.subtract(shading[rows], outside, out=whole[rows])
+        inside *= _like(weight[rows], shading)
+        inside += outside
+
+    by_strips(join, whole.shape)
+    return whole
+
+
+def _on_face(shading: Shading, surroundings: Surroundings) -> FloatArray:
+    """The shading's weighted means over the cells of the window."""
+    cell, (top, bottom, left, right) = surroundings.cell, surroundings.window
+    part = np.s_[top * cell : bottom * cell, left * cell : right * cell]
+    seen, weight = shading[part], surroundings.weight[part]
+    weighted = np.empty(seen.shape, np.float32)
 
     def strip(rows: slice) -> None:
-        np.multiply(shading[rows], _like(surroundings.weight[rows], shading), out=weighted[rows])
+        np.multiply(seen[rows], _like(weight[rows], shading), out=weighted[rows])
 
     by_strips(strip, weighted.shape)
-    sums = np.asarray(cv2.resize(weighted, (width, height), interpolation=cv2.INTER_AREA), np.float32)
-    return sums / _like(np.maximum(surroundings.total, np.float32(1e-12)), shading)
+    return _means(weighted, cell) / _like(np.maximum(surroundings.total, np.float32(1e-12)), shading)
+
+
+def _means(values: FloatArray, cell: int) -> FloatArray:
+    """Means over cells of so many pixels squared; what a cell has beyond the picture counts as 0."""
+    import cv2
+
+    height, width = values.shape[:2]
+    rows, columns = -(-height // cell), -(-width // cell)
+    padding = (0, rows * cell - height, 0, columns * cell - width)
+    if any(padding):
+        values = cv2.copyMakeBorder(values, *padding, cv2.BORDER_CONSTANT, value=0)
+    return np.asarray(cv2.resize(values, (columns, rows), interpolation=cv2.INTER_AREA), np.float32)
 
 
 def _like(weight: Mask, shading: Shading) -> FloatArray:
