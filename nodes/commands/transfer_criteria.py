@@ -103,7 +103,7 @@ def feature_similarity(before: FloatArray, after: FloatArray, features: Features
         return np.asarray(fine / np.sqrt(power + 1e-3), np.float32)
 
     one, other = equalized(before), equalized(after)
-    where = np.maximum.reduce([features.eyes, features.mouth, features.nose, features.lips]) > 0.5
+    where = features.any_of("eyes", "mouth", "nose", "lips") > 0.5
     if not where.any() or min(one.shape) < 7:
         return 1.0
     maps: Any = structural_similarity(one, other, data_range=4, full=True)  # type: ignore[no-untyped-call]

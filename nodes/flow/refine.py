@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import warn
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Image, Landmarks
 from graphface.nodes.warp.correspondence import Correspondence
 from graphface.nodes.warp.resample import fetched
@@ -130,9 +131,14 @@ def _refined_places(
 
     places = correspondence.places.copy()
     known = correspondence.inside[rows, columns]
-    moved = _moved(np.dstack([places[rows, columns] * known[..., None], known]), shift)
-    sure = moved[..., 2:] > 0.999  # beyond the mesh's edge there is nothing to move to
-    places[rows, columns] = np.where(sure, moved[..., :2], places[rows, columns])
+    there = np.dstack([places[rows, columns] * known[..., None], known])
+
+    def move(strip: slice) -> None:
+        moved = _moved(there, shift[strip], strip.start)
+        sure = moved[..., 2] > 0.999  # beyond the mesh's edge there is nothing to move to
+        places[rows, columns][strip][sure] = moved[sure, :2]
+
+    by_strips(move, there.shape)
     return places
 
 
@@ -170,12 +176,13 @@ def _improvement(mine: FloatArray, before: FloatArray, after: FloatArray, unit: 
     return np.asarray(np.clip(2 * (old - new) / (old + np.float32(0.02)), 0, 1), np.float32)
 
 
-def _moved(values: FloatArray, flow: FloatArray) -> FloatArray:
-    """values[x + flow(x)]."""
+def _moved(values: FloatArray, flow: FloatArray, top: int = 0) -> FloatArray:
+    """values[x + flow(x)] at the rows from `top` on for which there is a flow."""
     import cv2
 
-    y, x = np.mgrid[: flow.shape[0], : flow.shape[1]].astype(np.float32)
-    places = np.dstack([x, y]) + flow
+    places = flow + np.float32([0, top])
+    places[..., 0] += np.arange(flow.shape[1], dtype=np.float32)
+    places[..., 1] += np.arange(flow.shape[0], dtype=np.float32)[:, None]
     return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)  # type: ignore[call-overload]
 
 

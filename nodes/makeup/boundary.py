@@ -137,8 +137,7 @@ def boundary(
     change = np.log(np.maximum(small(painted.pixels), 0) + np.float32(_FLOOR))
     change -= np.log(np.maximum(small(photo.pixels), 0) + np.float32(_FLOOR))
     known = weight >= min(0.5, float(weight.max()))
-    parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows)
-    bare = known & (small(np.maximum.reduce(parts)) < 0.1)
+    bare = known & (small(features.any_of("eyes", "mouth", "lips", "lids", "brows")) < 0.1)
     bare = bare if bare.any() else known
     change = np.clip(change, -_MOST, _MOST)
     around = _averaged(change, bare, 0.4 * unit)

@@ -46,10 +46,18 @@ class Features:
     nose: Mask
     cheeks: Mask
 
+    def any_of(self, *names: str) -> Mask:
+        """The largest of some of the masks."""
+        first, *others = (getattr(self, name) for name in names)
+        largest: Mask = first.copy()
+        for mask in others:
+            np.maximum(largest, mask, out=largest)
+        return largest
+
     @staticmethod
     def picture(features: Features) -> NDArray[np.uint8]:
         """Red lips and cheeks, green lids and nose, blue brows; the openings white."""
-        openings = np.maximum(features.eyes, features.mouth)
+        openings = features.any_of("eyes", "mouth")
         red = np.maximum(features.lips, 0.5 * features.cheeks)
         green = np.maximum(features.lids, 0.5 * features.nose)
         colours = np.stack([np.maximum(c, openings) for c in (red, green, features.brows)], axis=2)

@@ -44,5 +44,5 @@ def in_front(
     around = cv2.resize(cv2.GaussianBlur(small, (0, 0), sigma), full, interpolation=cv2.INTER_LINEAR)
     relative = (grey + np.float32(_LEAST_LIGHT)) / (around + np.float32(_LEAST_LIGHT))
     found: FloatArray = np.clip(3 - relative * np.float32(3 / dark), 0, 1)
-    found *= 1 - np.minimum(np.maximum.reduce((features.brows, features.lips, features.eyes, features.mouth)), 1)
+    found *= 1 - np.minimum(features.any_of("brows", "lips", "eyes", "mouth"), 1)
     return np.asarray(found, np.float32)

@@ -42,6 +42,6 @@ def skin(
     unit = max(landmarks.interocular, 1e-3)
     depth = np.asarray(cv2.distanceTransform(covered, cv2.DIST_L2, 5), np.float32)
     deep: FloatArray = np.clip(depth / np.float32(max(rim * unit, 1.0)) - 1, 0, 1)
-    parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows, features.nose)
-    facial = np.maximum(deep, np.minimum(2 * np.maximum.reduce(parts), 1) * surface.coverage)
+    parts = features.any_of("eyes", "mouth", "lips", "lids", "brows", "nose")
+    facial = np.maximum(deep, np.minimum(2 * parts, 1) * surface.coverage)
     return np.asarray(np.maximum(labels.face, facial * (1 - labels.hair)), np.float32)

@@ -102,8 +102,7 @@ def lightness(estimated: Shading, reference: Shading, mask: Mask) -> float:
 
 def _skin(mask: Mask, features: Features) -> NDArray[np.bool_]:
     """Bare skin: inside the face, off all its features."""
-    parts = (features.eyes, features.mouth, features.lips, features.lids, features.brows)
-    skin: NDArray[np.bool_] = (mask > 0.5) & (np.maximum.reduce(parts) < 0.1)
+    skin: NDArray[np.bool_] = (mask > 0.5) & (features.any_of("eyes", "mouth", "lips", "lids", "brows") < 0.1)
     return skin
 
 

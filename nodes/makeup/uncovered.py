@@ -64,7 +64,7 @@ def uncovered(
     pixels = np.asarray(cv2.GaussianBlur(small(photo.pixels), (0, 0), max(0.03 * unit, 0.5)), np.float32)
     hair, bare = small(labels.hair) > 0.8, small(skin) > 0.9
     # Eye shadow may have the hair's colour and reach it.
-    special = small(np.maximum.reduce((features.eyes, features.mouth, features.lips))) > 0.2
+    special = small(features.any_of("eyes", "mouth", "lips")) > 0.2
     special |= small(np.maximum(features.lids, features.brows)) > 0.6
     sure = bare & ~special & (small(np.maximum(features.nose, features.cheeks)) > 0.5)
     near = hair & (cv2.distanceTransform((~bare).astype(np.uint8), cv2.DIST_L2, 3) < 0.8 * unit)
