@@ -10,12 +10,12 @@ import typer
 if TYPE_CHECKING:
     from graphface.nodes.morphable.model import MorphableModel
 
-app = typer.Typer(help="List, import, describe or learn 3-D face models.", no_args_is_help=True)
+app = typer.Typer(help="List, import, describe, learn or correct 3-D face models.", no_args_is_help=True)
 
 
 @app.callback()
 def models() -> None:
-    """List, import, describe or learn 3-D face models."""
+    """List, import, describe, learn or correct 3-D face models."""
 
 
 @app.command("list")
@@ -96,6 +96,21 @@ def learn(
         f"leaves {lesson.left:.2f} % of the eye distance, {lesson.left_unseen:.2f} % on unseen faces; "
         f"prior of {lesson.components} Gaussians"
     )
+
+
+@app.command()
+def relief(
+    model: Annotated[Path, typer.Argument(help="A model's file, as `models learn` writes it.")],
+    data: Annotated[Path, typer.Option(help="Folder of ground truth; it holds truth/.")] = Path("../shared/data"),
+    out: Annotated[Path, typer.Option(help="File to write.")] = Path("relief.safetensors"),
+) -> None:
+    """Correct a learned model's relief by heads whose normals are known: the last step of making the built-in one."""
+    from graphface.nodes.commands.relief_truth import relief_of_heads
+    from graphface.nodes.morphable.storage import load_model, save_model
+
+    better, off = relief_of_heads(load_model(model, refine=False), data)
+    save_model(better, out, half=True)
+    print(f"{out}: normals off by " + ", ".join(f"{degrees:.2f} degrees {when}" for when, degrees in off.items()))
 
 
 def _loaded(model: str) -> MorphableModel:

@@ -1,11 +1,8 @@
 """The relief of the built-in model, learned from path-traced heads whose normals are known.
 
-`graphface/nodes/morphable/builtin.safetensors` was made from the model that `graphface models learn` writes by
-
-    model, off = relief_of_heads(load_model(path, refine=False), Path("../shared/data"))
-    save_model(model, path, half=True)
-
-Six heads are few, so the figures that count are those of heads that took no part, and of other faces altogether.
+`graphface models relief learned.safetensors --data DATA` made the built-in model of the one that `graphface models
+learn` had written. Six heads are few, so the figures that count are those of heads that took no part, and of other
+faces altogether.
 """
 
 from __future__ import annotations
@@ -16,7 +13,7 @@ from statistics import fmean
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import UnreadableFile
+from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh
 from graphface.nodes.metrics import mean_angle
@@ -40,9 +37,7 @@ def relief_of_heads(coarse: MorphableModel, data: Path) -> tuple[MorphableModel,
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
-    heads = [_Head(path.parent) for path in sorted((data / "truth").glob("*/meta.json"))]
-    if not heads:
-        raise UnreadableFile(data / "truth", "holds no heads (folders with a meta.json)")
+    heads = [_Head(folder) for folder in heads_of(data)]
     plain = refined(coarse, _LEVELS)
     faces = [head.difference(plain) for head in heads]
     better = _with_relief_of(coarse, faces)
