@@ -94,7 +94,7 @@ def _projected(drawn: list[FloatArray], photo: Image, landmarks: Landmarks) -> l
     height, width = (max(1, round(n * scale)) for n in (photo.height, photo.width))
     if scale < 1:
         sides = np.array([width / photo.width, height / photo.height, scale], np.float32)
-        middle = np.float32([0.5, 0.5, 0])  # pixel centres are at whole numbers
+        middle = np.array([0.5, 0.5, 0], np.float32)  # pixel centres are at whole numbers
         landmarks = replace(landmarks, points=(landmarks.points + middle) * sides - middle)
     x, y, covered = face_coordinates(Image(np.broadcast_to(np.float32(0), (height, width, 3))), landmarks)
     full = (photo.width, photo.height)

@@ -180,7 +180,7 @@ def _moved(values: FloatArray, flow: FloatArray, top: int = 0) -> FloatArray:
     """values[x + flow(x)] at the rows from `top` on for which there is a flow."""
     import cv2
 
-    places = flow + np.float32([0, top])
+    places = flow + np.array([0, top], np.float32)
     places[..., 0] += np.arange(flow.shape[1], dtype=np.float32)
     places[..., 1] += np.arange(flow.shape[0], dtype=np.float32)[:, None]
     return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)  # type: ignore[call-overload]

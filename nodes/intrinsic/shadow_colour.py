@@ -15,6 +15,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.blur import blurred
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, FloatArray, Image, Landmarks, Mask
 
@@ -70,9 +71,8 @@ def shadow_colour(
         over = np.maximum(own - limit[rows], 0)
         over *= share
         over /= np.maximum(own, _LEAST)
-        kept = cv2.merge([1 - over] * 3)
-        grey = cv2.merge([grey] * 3)
-        result[rows] = grey + kept * (albedo[rows] - grey)
+        middle = in_three_channels(grey)
+        result[rows] = middle + in_three_channels(1 - over) * (albedo[rows] - middle)
 
     by_strips(strip, result.shape)
     return result

@@ -130,7 +130,7 @@ class _Canvas:
                 # Not `dilate`: its cost grows with the square of the width.
                 away = cv2.distanceTransform(255 - drawn, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
                 drawn = np.where(away <= grow * self.unit, np.uint8(255), np.uint8(0))
-            soft = blurred(drawn.astype(np.float32) / 255, sigma)
+            soft = blurred(drawn.astype(np.float32) / np.float32(255), sigma)
             mask[rows, columns] = np.maximum(mask[rows, columns], soft)
         return mask
 

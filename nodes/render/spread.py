@@ -147,7 +147,7 @@ def _means(values: FloatArray, cell: int) -> FloatArray:
     rows, columns = -(-height // cell), -(-width // cell)
     padding = (0, rows * cell - height, 0, columns * cell - width)
     if any(padding):
-        values = cv2.copyMakeBorder(values, *padding, cv2.BORDER_CONSTANT, value=0)
+        values = np.asarray(cv2.copyMakeBorder(values, *padding, cv2.BORDER_CONSTANT, value=0), np.float32)
     return np.asarray(cv2.resize(values, (columns, rows), interpolation=cv2.INTER_AREA), np.float32)
 
 

@@ -117,7 +117,9 @@ def _carried(
     def carry(strip: slice) -> None:
         row, column = np.nonzero(wanted[strip])
         triangle, weight = seen[strip][row, column], weights[strip][row, column]
-        carried = sum(weight[:, k, None] * tables[k].take(triangle, axis=0) for k in range(3))
+        carried = np.zeros((len(triangle), 4), np.float32)
+        for k, table in enumerate(tables):
+            carried += weight[:, k, None] * table.take(triangle, axis=0)
         # The weights are those of the point in space, so it is points in space that they may mix.
         at = reference.camera.project(carried[:, :3])
         inside = ((at >= -0.5) & (at <= np.array([width, height]) - 0.5)).all(axis=1)
