@@ -36,6 +36,10 @@ OPENNESS = 0.02
 UNKNOWN = -1.0
 """Score of a class of which there is no sample, beside a broad Gaussian of the whole window."""
 
+DOUBT = 0.2
+"""Belief in a class up to which a pixel does not teach it; only what exceeds this counts. A pixel that crosses it comes
+in with no weight, so that no noise can move it in or out at a stroke."""
+
 STRIP = 0.06
 """Width of the thinnest hair that can carry more hair, in inter-ocular distances."""
 
@@ -123,8 +127,8 @@ def _likelihoods(values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_]
     flat = values.reshape(-1, values.shape[2])
     fitted: list[Mixture | None] = [skin_mixture(values, skin, components)]
     for label in (HAIR, BACKDROP, CLOTHES):
-        weights = belief[..., label].reshape(-1)
-        chosen = sampled(weights > 0.2)
+        weights = np.maximum(belief[..., label].reshape(-1) - DOUBT, 0)
+        chosen = sampled(weights > 0)
         fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components, rounds=STEPS))
     # What a class does not know it is a little open to: a broad Gaussian of the whole window bounds every ratio.
     broad = fit_mixture(flat[sampled(np.ones(len(flat), bool))], components=1, floor=0.1)

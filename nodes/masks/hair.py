@@ -47,6 +47,12 @@ BESIDE = 0.05
 """Distance from the head, in inter-ocular distances, from which backdrop is learnt. It takes part in proportion to how
 far off it is; a backdrop learnt only far from the head would not know the shade that it has behind the hair."""
 
+DEEP, RIM = 0.25, 0.05
+"""Distance inside of the head, in inter-ocular distances, from which its top teaches hair with full weight, and the
+weight at its rim. The head's solids overshoot a small skull, and the backdrop that they cover there was learnt as hair:
+under side and coloured light a whole backdrop became hair (path-traced heads under `left45`: background 0.974, with
+this 0.982; under `red_blue`: hair 0.78, with this 0.92)."""
+
 
 @dataclass(frozen=True)
 class Hair:
@@ -94,10 +100,10 @@ def hair(
     beside = sampled((normal < 0.5) & (layout.head > BESIDE) & (layout.high > CHIN))
     expected = log_prior(layout)
     far = np.minimum(expected[..., HAIR] - np.logaddexp(expected[..., BACKDROP], expected[..., CLOTHES]), 0)
-    heads = Samples(flat[top], 1 - bare.reshape(-1)[top])
-    learnt = detector(
-        heads, Samples(flat[beside], far.reshape(-1)[beside]), skin, components=components, margin=margin, rounds=rounds
-    )
+    deep = np.clip(-layout.head / DEEP, RIM, 1).reshape(-1)
+    heads = Samples(flat[top], 1 - bare.reshape(-1)[top], deep[top])
+    sides = Samples(flat[beside], far.reshape(-1)[beside], np.ones(len(beside), np.float32))
+    learnt = detector(heads, sides, skin, components=components, margin=margin, rounds=rounds)
     enough = 0.0 if learnt is None else float(np.clip(2 * learnt.share / max(least, 1e-6) - 1, 0, 1))
     if learnt is None or enough == 0:
         nothing = np.zeros(shape, np.float32)
@@ -114,10 +120,12 @@ def hair(
 
 @dataclass(frozen=True)
 class Samples:
-    """Features `values` (n, D); `prior` (n,): of the top how surely no bare skin, of the sides the log odds of hair."""
+    """Features `values` (n, D); `prior` (n,): of the top how surely no bare skin, of the sides the log odds of hair;
+    `weight` (n,): how much each says, in (0, 1]."""
 
     values: FloatArray
     prior: FloatArray
+    weight: FloatArray
 
 
 @dataclass(frozen=True)
@@ -158,11 +166,13 @@ def detector(
             empty = 1 - sigmoid(lost / SOFTNESS + beside.prior)
         mixture, backdrop = _fitted(top, hairy, components), _fitted(beside, empty, components)
     mixture = _fitted(top, hairy, components)
-    return None if mixture is None else Learnt(mixture, backdrop, float((covered * sigmoid(lead - margin)).mean()))
+    if mixture is None:
+        return None
+    return Learnt(mixture, backdrop, float(np.average(covered * sigmoid(lead - margin), weights=top.weight)))
 
 
-def _fitted(samples: Samples, weights: FloatArray, components: int) -> Mixture | None:
-    return fit_mixture(samples.values, weights, components=components)
+def _fitted(samples: Samples, chances: FloatArray, components: int) -> Mixture | None:
+    return fit_mixture(samples.values, samples.weight * chances, components=components)
 
 
 def skin_mixture(values: FloatArray, where: NDArray[np.bool_], components: int) -> Mixture | None:
