@@ -5,6 +5,7 @@
 - `closed_form`: the matting Laplacian of the paper, solved where the label is unknown;
 - `knn`: the same solve, with the likest pixels in place of the nearest.
 
-`band` says where the label is unknown, `solve` solves for the alphas there. Operators take the photo, soft labels and
-landmarks (for lengths), and give labels that sum to 1.
+`band` says where the label is unknown, `solve` finds the alphas there (`laplacian` and `coarse` are the system of
+`closed_form` and its solutions from afar, `two_level` makes the search short). Operators take the photo, soft labels
+and landmarks (for lengths), and give labels that sum to 1.
 """

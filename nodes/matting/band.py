@@ -44,6 +44,12 @@ def likeliest_alphas(labels: Segmentation, part: tuple[slice, slice]) -> FloatAr
     return np.asarray(stacked.argmax(axis=0)[..., None] == (0, 1), np.float32)
 
 
+def soft_alphas(labels: Segmentation, band: Band) -> FloatArray:
+    """Face and hair of the unknown pixels as the labels have them, (n, 2) in [0, 1]."""
+    soft = np.stack([labels.face[band.part], labels.hair[band.part]], axis=2)[band.unknown]
+    return np.clip(np.nan_to_num(soft), 0, 1)
+
+
 def merged(labels: Segmentation, band: Band, alphas: FloatArray) -> Segmentation:
     """Certain labels outside of the band, alphas of face and hair (n, 2) in it, all within [0, 1] and summing to 1."""
     stacked = np.stack([labels.face, labels.hair, labels.background], axis=2)

@@ -14,7 +14,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.masks.features import in_space
-from graphface.nodes.matting.band import band_of, likeliest_alphas, merged
+from graphface.nodes.matting.band import band_of, likeliest_alphas, merged, soft_alphas
 from graphface.nodes.matting.solve import solve_alphas
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
@@ -44,7 +44,7 @@ def knn(
         trust: weight of the soft labels inside the band. tolerance: relative residual at which the solve stops.
     """
     import cv2
-    from scipy.sparse import coo_matrix, diags
+    from scipy.sparse import coo_matrix, diags, identity
     from scipy.spatial import cKDTree
 
     unit = max(landmarks.interocular, 1e-3)
@@ -66,9 +66,10 @@ def knn(
     graph = graph + graph.T
     laplacian = (diags(np.asarray(graph.sum(axis=1)).reshape(-1)) - graph).tocsr()[wanted]
     fixed = likeliest_alphas(labels, band.part)[near].astype(np.float64)
-    right = -(laplacian[:, ~wanted] @ fixed[~wanted])
-    guess = np.stack([labels.face[band.part], labels.hair[band.part]], axis=2)[band.unknown]
-    return merged(labels, band, solve_alphas(laplacian[:, wanted], right, guess, trust=trust, tolerance=tolerance))
+    guess = soft_alphas(labels, band)
+    right = trust * guess - laplacian[:, ~wanted] @ fixed[~wanted]
+    system = (laplacian[:, wanted] + trust * identity(len(guess))).tocsr()
+    return merged(labels, band, solve_alphas(system, right, guess, tolerance=tolerance))
 
 
 def _features(pixels: FloatArray, y: NDArray[np.intp], x: NDArray[np.intp], unit: float) -> FloatArray:

@@ -2,81 +2,77 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import redirect_stdout
-from io import StringIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphface import warn
+from graphface.nodes.matting.two_level import TwoLevel, Vector
 from graphface.nodes.types import FloatArray
 
 STEPS = 500
 """Most steps of conjugate gradients."""
 
-DISCARD, FILL = 3e-3, 8
-"""Entries of the factors below the first are dropped; they may have at most `FILL` times the entries of the matrix."""
-
-SHIFTS = (1e-2, 0.1, 1.0, 10.0)
-"""Added to the diagonal, each where the one before did not make it positive enough."""
-
 
 def solve_alphas(
-    matrix: Any,
-    right: NDArray[np.float64],
-    guess: FloatArray,
-    *,
-    trust: float,
-    tolerance: float,
-    start: FloatArray | None = None,
+    system: Any, right: NDArray[np.float64], guess: FloatArray, *, tolerance: float, coarse: Any | None = None
 ) -> FloatArray:
-    """The x that solves (matrix + trust I) x = right + trust guess, float32 (n, columns of `right`).
+    """The x that solves system x = right, float32 (n, columns of `right`).
 
     Args:
-        matrix: sparse (n, n), symmetric, positive semi-definite. guess: (n, k), what rules where the matrix says
-            nothing. start: (n, k), where the solve starts; the guess where there is none.
+        system: CSR (n, n), symmetric, with a positive diagonal. guess: (n, k) in [0, 1], where the solve starts.
+        coarse: sparse (n, m), functions that the system hardly resists.
         tolerance: relative residual.
 
-    Falls back, with a warning, on a diagonal preconditioner where the incomplete Cholesky factorization fails, on the
-    best iterate where the solve does not converge, and on the start where it is not finite.
+    Falls back, with a warning, on the last iterate where the solve does not converge, and on the guess where it is not
+    finite.
     """
-    from scipy.sparse import identity
-    from scipy.sparse.linalg import LinearOperator, cg
-
-    trusted = np.clip(np.nan_to_num(guess.astype(np.float64)), 0, 1)
-    begun = trusted if start is None else np.clip(np.nan_to_num(start.astype(np.float64)), 0, 1)
-    system = (matrix + trust * identity(matrix.shape[0], format="csr")).tocsr()
-    target = right + trust * trusted
-    inverse = LinearOperator(system.shape, _preconditioner(system), dtype=np.float64)
+    begun = guess.astype(np.float64)
+    if not len(begun):
+        return begun.astype(np.float32)
+    system.sum_duplicates()
+    inverse = TwoLevel(system, coarse)
     alphas = np.empty_like(begun)
     for k in range(begun.shape[1]):
-        first = float(np.linalg.norm(target[:, k] - system @ begun[:, k]))
-        least = max(tolerance * max(float(np.linalg.norm(target[:, k])), first), 1e-12)
-        x, status = cg(system, target[:, k], x0=begun[:, k], rtol=0, atol=least, maxiter=STEPS, M=inverse)
-        if status != 0:
-            warn(f"matting: conjugate gradients did not reach {tolerance:g} in {STEPS} steps; taken as they are")
+        first = np.ascontiguousarray(begun[:, k])
+        x, converged = _conjugate_gradients(system, right[:, k], first, inverse, tolerance)
+        if not converged:
+            warn(f"matting: conjugate gradients stopped short of {tolerance:g}; alphas are taken as they are")
         if not np.isfinite(x).all():
             warn("matting: the solve is not finite; the labels' own softness is taken")
-            x = begun[:, k]
+            x = first
         alphas[:, k] = x
     return alphas.astype(np.float32)
 
 
-def _preconditioner(system: Any) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-    """PyMatting's incomplete Cholesky factors, or one over the diagonal where they do not exist."""
-    from pymatting.preconditioner.ichol import ichol
-    from scipy.sparse import csc_matrix
+def _conjugate_gradients(
+    system: Any, target: Vector, begun: Vector, inverse: TwoLevel, tolerance: float
+) -> tuple[Vector, bool]:
+    """The solution from `begun` on, and whether it reached the tolerance.
 
-    mirrored = csc_matrix(
-        (system.data, system.indices, system.indptr), shape=system.shape
-    )  # symmetric: rows are columns
-    try:
-        with redirect_stdout(StringIO()):  # every shift of the diagonal that it tries in vain is printed
-            factors = ichol(mirrored, discard_threshold=DISCARD, max_nnz=FILL * max(system.nnz, 1), shifts=SHIFTS)
-    except (ValueError, ArithmeticError) as error:
-        warn(f"matting: incomplete Cholesky failed ({error}); the diagonal is the preconditioner, which takes longer")
-        diagonal = np.maximum(system.diagonal(), 1e-12)
-        return lambda residual: residual / diagonal
-    return lambda residual: factors(residual)
+    Inner products are einsum's: those of BLAS wake its threads, which costs more than it saves at these sizes.
+    """
+    residual = target - system @ begun
+    least = max(tolerance**2 * max(_dot(target, target), _dot(residual, residual)), 1e-24)
+    correction, image = inverse.start(residual)
+    x, residual = begun + correction, residual - image
+    direction, along = np.zeros_like(x), 1.0
+    for _ in range(STEPS):
+        left = _dot(residual, residual)
+        if not left > least:  # reached, or no longer a number
+            return x, left <= least
+        better = inverse(residual)
+        slope = _dot(residual, better)
+        direction *= slope / along
+        direction += better
+        along = slope if abs(slope) > 1e-300 else 1e-300
+        image = system @ direction
+        step = slope / max(_dot(direction, image), 1e-300)
+        x += step * direction
+        residual -= step * image
+    return x, False
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return float(np.einsum("n,n->", a, b))
