@@ -67,8 +67,9 @@ def band_system(
         columns.append(column[free])
         lengths.append(np.count_nonzero(free, axis=1))
         # The entries towards known pixels, times what is known there.
-        row, entry = np.nonzero(~free)
-        towards = data[row, entry, None] * known[strip].reshape(-1, 2)[beside[row, entry]]
+        border = np.flatnonzero(~free)
+        row = border // NEIGHBORS
+        towards = data.reshape(-1)[border, None] * known[strip].reshape(-1, 2)[beside.reshape(-1)[border]]
         mine = number[strip][own]
         for k in range(2):
             right[mine, k] -= np.bincount(row, towards[:, k], len(mine))

@@ -40,7 +40,7 @@ class TwoLevel:
         if coarse is not None and coarse.shape[1]:
             self._up, self._down = coarse, coarse.T.tocsr()
             self._image = system @ coarse
-            self._image_down = self._image.T.tocsr()
+            self._image_down = self._image.T
             self._solve = _factored((self._down @ self._image).tocsc())
 
     def start(self, residual: Vector) -> tuple[Vector, Vector]:
