@@ -58,7 +58,7 @@ class Compared:
 
 def matting_speed(photos: Iterable[Path], *, trust: float, tolerance: float) -> Iterator[Compared]:
     """Solve every photo both ways, at one setting of matting.closed_form."""
-    from threadpoolctl import threadpool_limits
+    from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
     warm = False
     for path in photos:
