@@ -46,6 +46,10 @@ STRIP = 0.06
 GAP = 8.0
 """Price of an inter-ocular distance through what is surely no hair, on the way from the head to a lock."""
 
+COLLAR, INWARDS = 8.0, 0.15
+"""Price of an inter-ocular distance through hair, for each that the way lies inside of the neck, counted from this far
+outside of it. Locks fall beside the neck; what hangs on the head only by way of the throat is a collar or a suit."""
+
 WAYS = 400
 """Longest way that is looked for, working pixels."""
 
@@ -150,8 +154,12 @@ def _connected(belief: FloatArray, layout: Layout, unit: float) -> FloatArray:
     head = (layout.head < 0) & (layout.high > CHIN + 0.5)
     throat = (layout.outline < 0.05) | ((layout.neck < 0.05) & (layout.high > CHIN - 0.3))
     skin = (layout.outline < 0) | (layout.neck < 0) | head
-    for label, root, stays in ((HAIR, head & (layout.high > EYE_LINE), head), (FACE, skin, skin)):
-        stray = belief[..., label] * apart(belief[..., label], root, unit) * ~stays
+    collar = COLLAR * np.maximum(INWARDS - layout.neck, 0) * (layout.outline > 0) * (layout.high < CHIN + 0.3)
+    for label, root, stays, toll in (
+        (HAIR, head & (layout.high > EYE_LINE), head, collar),
+        (FACE, skin, skin, np.zeros_like(collar)),
+    ):
+        stray = belief[..., label] * apart(belief[..., label], root, unit, toll) * ~stays
         belief[..., label] -= stray
         shadow = throat if label == HAIR else np.zeros_like(throat)
         belief[..., FACE] += stray * shadow
@@ -159,7 +167,7 @@ def _connected(belief: FloatArray, layout: Layout, unit: float) -> FloatArray:
     return belief
 
 
-def apart(belief: FloatArray, root: NDArray[np.bool_], unit: float) -> FloatArray:
+def apart(belief: FloatArray, root: NDArray[np.bool_], unit: float, toll: FloatArray | None = None) -> FloatArray:
     """How surely each pixel of a label does not hang on the root, float32 h x w in [0, 1].
 
     The cheapest way from the root is found, on which every step costs the square of what belief lacks of 1. A part of
@@ -168,13 +176,14 @@ def apart(belief: FloatArray, root: NDArray[np.bool_], unit: float) -> FloatArra
 
     Args:
         belief: h x w in [0, 1]. root: where ways start. unit: inter-ocular distance in pixels.
+        toll: h x w, what an inter-ocular distance costs beside that.
     """
     import cv2
 
     thin = max(0, round(STRIP * unit / 2))
     element = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * thin + 1, 2 * thin + 1))
     lacking = np.square(1 - np.asarray(cv2.erode(belief, element, borderType=cv2.BORDER_REPLICATE), np.float32))
-    price = np.float32(GAP / max(unit, 1.0)) * lacking
+    price = np.asarray((GAP * lacking + (0 if toll is None else toll)) / max(unit, 1.0), np.float32)
     way = np.where(root, 2 * lacking, 9).astype(np.float32)
     for step in range(1, WAYS + 1):
         shorter = np.minimum(way, np.asarray(cv2.erode(way, np.ones((3, 3), np.uint8))) + price)

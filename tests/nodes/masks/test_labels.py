@@ -9,7 +9,7 @@ from portraits import BACKDROP, HAIR, SKIN, portrait, surface_of
 from graphface.nodes.masks.classify import apart, classify
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
-from graphface.nodes.masks.hair import hair
+from graphface.nodes.masks.hair import Samples, detector, hair
 from graphface.testing import check_node
 
 
@@ -59,6 +59,31 @@ class TestHair:
         check_node(hair, seen, masks, landmarks)
 
 
+class TestDetector:
+    def samples(self, rng, *parts):
+        """(colour, number, prior, weight) of each part."""
+        values = [rng.normal(color, 0.02, (count, 3)) for color, count, _, _ in parts]
+        priors, weights = (np.concatenate([np.full(part[1], part[k]) for part in parts]) for k in (2, 3))
+        return Samples(*(np.asarray(a, np.float32) for a in (np.concatenate(values), priors, weights)))
+
+    @pytest.mark.parametrize("weight", [0.1, 0.5])
+    def test_share_does_not_depend_on_scale(self, rng, weight):
+        """A head all of whose top says little has as much hair as one whose top says all."""
+        sides = self.samples(rng, (BACKDROP, 200, -1, 1))
+        top = self.samples(rng, (HAIR, 100, 1, 1), (BACKDROP, 100, 1, 1))
+        settings = {"components": 4, "margin": 3.0, "rounds": 3}
+        whole = detector(top, sides, None, **settings)
+        part = detector(Samples(top.values, top.prior, top.weight * np.float32(weight)), sides, None, **settings)
+        assert whole.share == pytest.approx(0.5, abs=0.1)
+        assert part.share == pytest.approx(whole.share, abs=0.01)
+
+    def test_rim_counts_little(self, rng):
+        """Backdrop at the rim of the head lowers the share of hair by its weight, not by its number."""
+        sides = self.samples(rng, (BACKDROP, 200, -1, 1))
+        top = self.samples(rng, (HAIR, 100, 1, 1), (BACKDROP, 100, 1, 0.05))
+        assert detector(top, sides, None, components=4, margin=3.0, rounds=3).share > 0.9
+
+
 class TestApart:
     def test_what_hangs_on_the_root_stays(self):
         """A lock that touches the root is not apart, one across a gap of half a unit is."""
@@ -76,6 +101,18 @@ class TestApart:
         root = np.zeros(belief.shape, bool)
         root[:10, :10] = True
         assert np.abs(apart(belief, root, 30.0) - apart(belief - 0.01, root, 30.0)).max() < 0.25
+
+    def test_toll_cuts(self):
+        """What hangs on the root only by way of a toll is apart; without the toll it is not."""
+        belief = np.ones((10, 80), np.float32)
+        root = np.zeros(belief.shape, bool)
+        root[:, :10] = True
+        toll = np.zeros(belief.shape, np.float32)
+        toll[:, 30:50] = 2
+        assert apart(belief, root, 20.0).max() == 0
+        found = apart(belief, root, 20.0, toll)
+        assert found[:, :25].max() == 0
+        assert found[:, 55:].min() == 1
 
 
 class TestClassify:
