@@ -51,7 +51,7 @@ DEEP, RIM = 0.25, 0.05
 """Distance inside of the head, in inter-ocular distances, from which its top teaches hair with full weight, and the
 weight at its rim. The head's solids overshoot a small skull, and the backdrop that they cover there was learnt as hair:
 under side and coloured light a whole backdrop became hair (path-traced heads under `left45`: background 0.974, with
-this 0.982; under `red_blue`: hair 0.78, with this 0.92)."""
+this 0.980; under `red_blue`: hair 0.78, with this 0.89)."""
 
 
 @dataclass(frozen=True)
