@@ -15,12 +15,15 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from graphface import node
+from graphface import node, warn
 from graphface.nodes.matting.band import band_of, likeliest_alphas, merged, soft_alphas
 from graphface.nodes.matting.coarse import color_lines
 from graphface.nodes.matting.laplacian import band_system
 from graphface.nodes.matting.solve import solve_alphas
 from graphface.nodes.types import Image, Landmarks, Segmentation
+
+_LARGEST_RIDGE = 1e-2
+"""Epsilon that a picture without colours is solved with at the most."""
 
 
 @node("matting.closed_form")
@@ -56,5 +59,11 @@ def closed_form(
     guess = soft_alphas(labels, band)
     known = likeliest_alphas(labels, band.part)
     system, right = band_system(colors, band.unknown, known, guess, ridge=ridge, trust=trust)
+    # A Laplacian is not negative. Where colours of a window are one colour to the last bits but for their brightness,
+    # rounding can make it so; a larger epsilon cannot be told from a small one there.
+    while ridge < _LARGEST_RIDGE and len(guess) and system.diagonal().min() < trust / 2:
+        ridge = min(max(100 * ridge, 1e-7), _LARGEST_RIDGE)
+        warn(f"matting.closed_form: some windows have no colour to speak of; solved with an epsilon of {ridge:g}")
+        system, right = band_system(colors, band.unknown, known, guess, ridge=ridge, trust=trust)
     coarse = color_lines(colors, band.unknown)
     return merged(labels, band, solve_alphas(system, right, guess, tolerance=tolerance, coarse=coarse))
