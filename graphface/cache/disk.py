@@ -116,7 +116,7 @@ class DiskTier:
         self._size: int | None = None
         self._counted_at = 0.0
         self._counters = {"hits": 0, "misses": 0, "stored": 0, "evicted": 0, "dropped": 0}
-        if self.folder.exists() and not self._marked() and (not self.folder.is_dir() or any(self.folder.iterdir())):
+        if self.folder.exists() and self._foreign():
             raise UsageError(f"{self.folder} is not a cache of graphface; name a new or an empty folder")
 
     def get(self, key: bytes, annotation: Any) -> Any:
@@ -264,6 +264,16 @@ class DiskTier:
         if len(name) != 32:
             raise ValueError(f"a key has 16 bytes, this one has {len(key)}")
         return os.path.join(self.folder, name[:2], f"{name}.safetensors")
+
+    def _foreign(self) -> bool:
+        """Whether the folder is somebody else's.
+
+        Another process may be making it ours at this moment: it drafts the mark, marks, and only then stores. So drafts
+        do not count, and the mark is looked for after what else there is.
+        """
+        if not self.folder.is_dir():
+            return True
+        return any(not item.name.startswith(f"{MARK}.") for item in self.folder.iterdir()) and not self._marked()
 
     def _marked(self) -> bool:
         try:

@@ -192,6 +192,21 @@ class TestDamage:
 
 
 class TestFolder:
+    def test_another_process_may_be_marking_it(self, tmp_path, monkeypatch):
+        """A folder that becomes ours between two looks at it is ours: draft of the mark, mark, then entries."""
+        (tmp_path / f"{MARK}.123.456").write_text("Sig")
+        DiskTier(tmp_path, MIB)
+        listed = Path.iterdir
+
+        def marked_meanwhile(folder):
+            monkeypatch.setattr(Path, "iterdir", listed)
+            DiskTier(tmp_path, MIB).put(KEY, ARRAY, cost_seconds=0)
+            return listed(folder)
+
+        (tmp_path / f"{MARK}.123.456").unlink()
+        monkeypatch.setattr(Path, "iterdir", marked_meanwhile)
+        assert DiskTier(tmp_path, MIB).contains(KEY)
+
     def test_refuses_a_folder_that_is_not_ours(self, tmp_path):
         """A folder with files and no mark is not taken over."""
         (tmp_path / "thesis.tex").write_text("years of work")
