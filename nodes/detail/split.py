@@ -25,6 +25,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.blur import blurred
 from graphface.nodes.detail.rendering import in_three_channels, rendering
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Landmarks, Shading
@@ -70,7 +71,7 @@ def split(
 
     by_strips(compare, source.shape)
     if cutoff > 0:
-        ratio = _blurred(ratio, cutoff * _unit(landmarks, photo))
+        ratio = blurred(ratio, max(cutoff * _unit(landmarks, photo), 1e-2))
     gain, offset = np.empty_like(source), np.empty_like(source)
 
     def part(rows: slice) -> None:
@@ -100,10 +101,3 @@ def _unit(landmarks: Landmarks | None, photo: Image) -> float:
         return landmarks.interocular
     warn("detail.split: no landmarks to give the cut-off its unit; took a quarter of the picture's shorter side")
     return min(photo.height, photo.width) / 4
-
-
-def _blurred(values: FloatArray, sigma: float) -> FloatArray:
-    import cv2
-
-    blurred = cv2.GaussianBlur(values, (0, 0), max(sigma, 1e-2), borderType=cv2.BORDER_REPLICATE)
-    return np.asarray(blurred, np.float32)

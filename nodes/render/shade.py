@@ -18,14 +18,15 @@ from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Lighting, Mask, Shading
 
 
-def _wanted(scene: Scene) -> Needs:
+def needs_of_lights(scene: Scene) -> Needs:
+    """What a node that adds up a scene's lights needs of its lazy ports."""
     return {
         "shadows": bool(scene.casting) or "no light of the scene casts a shadow that the camera could see",
         "panorama": scene.surrounded or "the scene has no environment light",
     }
 
 
-@node("render.shade", needs=_wanted)
+@node("render.shade", needs=needs_of_lights)
 def shade(
     samples: Samples,
     scene: Scene,

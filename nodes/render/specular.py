@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import Lazy, Needs, node
+from graphface import Lazy, node
 from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.irradiance import arriving, irradiance, towards_light
 from graphface.nodes.render.lights import EnvironmentLight, HarmonicLight
 from graphface.nodes.render.samples import Samples
 from graphface.nodes.render.scene import Scene
-from graphface.nodes.render.shade import light_gain, seen_shares
+from graphface.nodes.render.shade import light_gain, needs_of_lights, seen_shares
 from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Lighting, Mask, Shading
@@ -23,14 +23,7 @@ _SKIN_ALBEDO = 0.4
 """Diffuse reflectance that the photo's brightness is taken to stand for, where highlights are compared with it."""
 
 
-def _wanted(scene: Scene) -> Needs:
-    return {
-        "shadows": bool(scene.casting) or "no light of the scene casts a shadow that the camera could see",
-        "panorama": scene.surrounded or "the scene has no environment light",
-    }
-
-
-@node("render.specular", needs=_wanted)
+@node("render.specular", needs=needs_of_lights)
 def specular(
     samples: Samples,
     scene: Scene,
