@@ -10,8 +10,12 @@ source (`graphface.cache.late_imports`). Packages released by others count by na
 A class brings all of its methods but those that the engine calls at the edges of a graph (`from_file`, `picture` ...):
 how a photo is decoded is no part of every operator that touches an `Image`. They count where an operator names them.
 
+A path into the operator's own package counts by its place there, with the content of the file it names
+(`graphface.cache.beside`): two environments share results, an edited data file invalidates them.
+
 Known limits: what is reached only through strings (`getattr(module, name)`) counts only where the module is named,
-and then as a whole; a container changed in place is seen by the next walk, not by `stale`.
+and then as a whole; a data file counts where a constant names it, not where the body of a function spells its path; a
+container changed in place is seen by the next walk, not by `stale`.
 """
 
 from __future__ import annotations

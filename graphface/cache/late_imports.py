@@ -11,6 +11,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from graphface.cache.beside import content
 from graphface.cache.bytecode import Import
 from graphface.cache.ledger import Ledger, modified
 from graphface.cache.source import Source, absolute, drifted, locate
@@ -69,7 +70,7 @@ class LateImports:
             self._slices[module, name] = b"no source"
             return
         cut = source.slice(name)
-        self._slices[module, name] = cut.digest
+        self._slices[module, name] = cut.digest + b"".join(content(file) for file in cut.files)
         package = module if path is not None and path.name == "__init__.py" else module.rpartition(".")[0]
         for statement in cut.imports:
             self._add_of_source(statement, package)

@@ -10,16 +10,18 @@ import os
 from collections import deque
 from collections.abc import Iterator
 from enum import Enum
+from pathlib import PurePath
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
+from graphface.cache.beside import content
 from graphface.cache.digest import Undigestible, exact, new_hash
 from graphface.cache.territory import Territory
 
 MISSING: Any = object()
-_PLAIN = (type(None), bool, int, float, complex, str, bytes, np.ndarray, type(...))
+_PLAIN = (type(None), bool, int, float, complex, str, bytes, np.ndarray, PurePath, type(...))
 
 
 class Ledger:
@@ -49,7 +51,11 @@ class Ledger:
 
     def put(self, value: Any) -> None:
         """Write a plain value or a container of such; of any other object its number."""
-        if isinstance(value, _PLAIN) and not isinstance(value, Enum):
+        inside = self._place(value)
+        if inside is not None:
+            self.write("path", inside)
+            self.state.update(exact(content(value)))
+        elif isinstance(value, _PLAIN) and not isinstance(value, Enum):
             try:
                 self.state.update(exact(value))
             except Undigestible:
@@ -104,13 +110,23 @@ class Ledger:
         self._inside.add(id(value))
         self.write(type(value).__name__, str(len(value)))
         if isinstance(value, dict):
-            for key in sorted(value, key=_order):
+            for key in sorted(value, key=self._order):
                 self.put(key)
                 self.put(value[key])
         else:
-            for item in sorted(value, key=_order) if isinstance(value, set | frozenset) else value:
+            for item in sorted(value, key=self._order) if isinstance(value, set | frozenset) else value:
                 self.put(item)
         self._inside.discard(id(value))
+
+    def _place(self, value: Any) -> str | None:
+        """Where in the operator's own package a path points; None for anything else."""
+        return self.territory.place(value) if isinstance(value, str | PurePath) else None
+
+    def _order(self, value: Any) -> bytes:
+        try:
+            return exact(self._place(value) or value)
+        except Undigestible:
+            return f"{type_name(value)} {getattr(value, '__qualname__', '')}".encode()
 
 
 def modified(path: str) -> int:
@@ -123,10 +139,3 @@ def modified(path: str) -> int:
 
 def type_name(value: Any) -> str:
     return f"{type(value).__module__}.{type(value).__qualname__}"
-
-
-def _order(value: Any) -> bytes:
-    try:
-        return exact(value)
-    except Undigestible:
-        return f"{type_name(value)} {getattr(value, '__qualname__', '')}".encode()

@@ -18,6 +18,7 @@ from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
+from graphface.cache.beside import named_files
 from graphface.cache.bytecode import Import, read_code
 from graphface.cache.digest import Undigestible, exact, new_hash
 
@@ -30,11 +31,13 @@ class Slice:
         digest: 16 bytes over their syntax: no comments, docstrings or layout.
         names: the module's own names that they bind.
         imports: import statements among or inside them.
+        files: what they make of `__file__`.
     """
 
     digest: bytes
     names: tuple[str, ...]
     imports: tuple[Import, ...]
+    files: tuple[Path, ...]
 
 
 class Source:
@@ -111,7 +114,9 @@ class Source:
         for statement in kept:
             state.update(ast.dump(statement.node).encode("utf-8", "surrogatepass") + b"\n")
         names = sorted({n for s in kept for n in s.binds})
-        return Slice(state.digest(), tuple(names), tuple(dict.fromkeys(i for s in kept for i in s.imports)))
+        imports = dict.fromkeys(i for s in kept for i in s.imports)
+        files = {f for s in kept if "__file__" in s.uses for f in named_files(s.node, self.path)}
+        return Slice(state.digest(), tuple(names), tuple(imports), tuple(sorted(files)))
 
 
 class _Statement:

@@ -13,7 +13,9 @@ import sysconfig
 from functools import cache
 from importlib import metadata
 from importlib.machinery import PathFinder
-from pathlib import Path
+from pathlib import Path, PurePath
+
+from graphface.cache.beside import place
 
 NODES = "graphface.nodes"
 
@@ -24,6 +26,7 @@ class Territory:
     def __init__(self, modules: list[str]) -> None:
         self.roots = {_root(module) for module in modules}
         self.folders = {folder for module in modules if (folder := _plugin_folder(module)) is not None}
+        self._packages = sorted({path for root in self.roots for path in _package_folders(root)} | self.folders)
         self._answers: dict[str, str | None] = {}
 
     def foreign(self, module: str | None) -> str | None:
@@ -33,6 +36,10 @@ class Territory:
         if module not in self._answers:
             self._answers[module] = None if self._owns(module) else released(module.partition(".")[0])
         return self._answers[module]
+
+    def place(self, path: str | PurePath) -> str | None:
+        """`path` relative to the package, or to the folder of a plug-in file, that it lies in; None elsewhere."""
+        return place(path, self._packages)
 
     def _owns(self, module: str) -> bool:
         if _root(module) in self.roots:
@@ -75,6 +82,12 @@ def _records(folder: Path) -> list[tuple[Path, str]]:
 def _root(module: str) -> str:
     """The engine ships with the face operators but is no part of them: a change to a cache must not undo the cache."""
     return NODES if module == NODES or module.startswith(NODES + ".") else module.partition(".")[0]
+
+
+def _package_folders(root: str) -> set[str]:
+    """Where a loaded package lies, as it is named and without symbolic links."""
+    named = [os.path.abspath(path) for path in getattr(sys.modules.get(root), "__path__", [])]
+    return {*named, *map(os.path.realpath, named)}
 
 
 def _plugin_folder(module: str) -> str | None:

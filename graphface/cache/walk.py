@@ -12,7 +12,6 @@ import re
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from enum import Enum
-from pathlib import Path
 from types import BuiltinFunctionType, CellType, FunctionType, MethodType, ModuleType
 from typing import Any
 
@@ -20,7 +19,6 @@ import numpy as np
 
 from graphface.cache.bytecode import PYTHON, read_code
 from graphface.cache.class_content import dataclass_fields, model_fields, own_names, written_annotations
-from graphface.cache.digest import exact
 from graphface.cache.late_imports import LateImports
 from graphface.cache.ledger import MISSING, Ledger, type_name
 
@@ -77,9 +75,8 @@ class _Walk:
             ledger.put(type(value))
         elif isinstance(value, re.Pattern):
             ledger.parts("pattern", value.pattern, value.flags)
-        elif isinstance(value, np.dtype | np.generic | Path):
+        elif isinstance(value, np.dtype | np.generic):
             ledger.write(type_name(value), str(value))
-            ledger.parts("content", exact(value) if isinstance(value, Path) else None)
         else:
             self._instance(value)
 
