@@ -162,6 +162,13 @@ def is_lazy(annotation: Any) -> bool:
     return LAZY in getattr(annotation, "__metadata__", ())
 
 
+def spelled_out(annotation: Any) -> Any:
+    """What an alias declared by `type X[T] = ...` stands for (NumPy's NDArray from 2.5 on); others as they are."""
+    while (meaning := getattr(annotation, "__value__", None)) is not None:
+        annotation = meaning
+    return annotation
+
+
 def array_of(annotation: Any) -> ArrayType | None:
     """The `ArrayType` inside an `Annotated`, if there is one."""
     return next((m for m in getattr(annotation, "__metadata__", ()) if isinstance(m, ArrayType)), None)
@@ -179,6 +186,7 @@ def output_fields(annotation: Any) -> dict[str, PortType]:
 
 def _collect(annotation: Any, atoms: list[Atom]) -> bool:
     """Append the alternatives of `annotation` to `atoms`; True where None is one of them."""
+    annotation = spelled_out(annotation)
     array = array_of(annotation)
     if array is not None:
         atoms.append(array)

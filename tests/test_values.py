@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from typing_extensions import TypeAliasType
 
 from graphface import ArrayType, Lazy
 from graphface.values import is_lazy, output_fields, port_type
@@ -47,6 +48,8 @@ class TestReading:
             (Literal["srgb", "linear"], "str"),
             (Literal["largest"] | int, "str | int"),
             (Literal[1, None], "int | None"),
+            (TypeAliasType("Alias", Coarse | None), "Coarse | None"),
+            (list[TypeAliasType("Alias", NDArray[np.float32])], "list[ndarray]"),
         ],
     )
     def test_annotation(self, annotation: object, text: str) -> None:

@@ -31,6 +31,11 @@ _SHIFT = {dis.opmap[name]: bits for name, bits in _FLAG_BITS.items() if name in 
 _HAS_DOCSTRING = 0x4000000
 """A flag of `co_flags` since 3.13."""
 
+_NOTED_BY_CLASSES = frozenset({"__doc__", "__firstlineno__", "__static_attributes__"})
+"""What the body of a class stores that is documentation, or (since 3.13) derived from where and what the code is."""
+
+_LOADS_CONSTANT = _CONSTANT | frozenset(dis.opmap[name] for name in ("LOAD_SMALL_INT",) if name in dis.opmap)
+_STORE_NAME = dis.opmap["STORE_NAME"]
 _READS_NAME = frozenset({"LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS"})
 _READS_ATTRIBUTE = frozenset({"LOAD_ATTR", "LOAD_METHOD"})
 
@@ -69,7 +74,7 @@ def read_code(code: CodeType) -> CodeContent:
     imports: dict[Import, None] = {}
     chain: list[str] = []
     recent: list[Any] = []
-    for opcode, argument, meaning in instructions(code):
+    for opcode, argument, meaning in _that_count(code):
         name = dis.opname[opcode]
         if opcode in _CONSTANT:
             state.update(b"%d=" % opcode + _constant(meaning))
@@ -117,6 +122,21 @@ def instructions(code: CodeType) -> Iterator[tuple[int, int, Any]]:
             yield opcode, argument, code.co_names[argument >> _SHIFT.get(opcode, 0)]
         else:
             yield opcode, argument, None
+
+
+def _that_count(code: CodeType) -> Iterator[tuple[int, int, Any]]:
+    """The instructions, but for the pairs that load a constant and store it as one of `_NOTED_BY_CLASSES`."""
+    last: tuple[int, int, Any] | None = None
+    for instruction in instructions(code):
+        opcode, _, meaning = instruction
+        if last is not None and opcode == _STORE_NAME and meaning in _NOTED_BY_CLASSES and last[0] in _LOADS_CONSTANT:
+            last = None
+            continue
+        if last is not None:
+            yield last
+        last = instruction
+    if last is not None:
+        yield last
 
 
 def _flags(opcode: int, argument: int) -> int:

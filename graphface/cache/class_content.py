@@ -16,6 +16,7 @@ _MACHINERY = frozenset(
         "__weakref__",
         "__firstlineno__",
         "__static_attributes__",
+        "__annotations_cache__",
         "__abstractmethods__",
         "__dataclass_fields__",
         "__dataclass_params__",

@@ -23,7 +23,7 @@ from typing import Annotated, Any, Literal, Union
 import numpy as np
 
 from graphface.errors import RunError
-from graphface.values import array_of
+from graphface.values import array_of, spelled_out
 
 Tensors = dict[str, np.ndarray[Any, Any]]
 
@@ -271,9 +271,7 @@ def _stands_in(value: Any, kind: type) -> bool:
 
 def _alternatives(annotation: Any) -> Iterator[Any]:
     """The members of a union, each still with its metadata; the annotation itself otherwise."""
-    inner = annotation
-    while typing.get_origin(inner) is Annotated:
-        inner = inner.__origin__
+    inner = _unmarked(annotation)
     if typing.get_origin(inner) in (Union, UnionType):
         for member in typing.get_args(inner):
             yield from _alternatives(member)
@@ -283,15 +281,19 @@ def _alternatives(annotation: Any) -> Iterator[Any]:
 
 def _bare(annotation: Any) -> Any:
     """The class behind an annotation (`object` for Any), or `Literal`, or what is no class and says nothing."""
-    while typing.get_origin(annotation) is Annotated:
-        annotation = annotation.__origin__
+    annotation = _unmarked(annotation)
     return object if annotation is Any else typing.get_origin(annotation) or annotation
 
 
 def _arguments(annotation: Any) -> tuple[Any, ...]:
-    while typing.get_origin(annotation) is Annotated:
+    return typing.get_args(_unmarked(annotation))
+
+
+def _unmarked(annotation: Any) -> Any:
+    """The annotation without metadata, aliases spelled out."""
+    while typing.get_origin(annotation := spelled_out(annotation)) is Annotated:
         annotation = annotation.__origin__
-    return typing.get_args(annotation)
+    return annotation
 
 
 def _items(data: list[Any], annotation: Any) -> Iterator[tuple[Any, Any]]:

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 from pydantic import BaseModel
+from typing_extensions import TypeAliasType
 
 from graphface import ArrayType
 from graphface.cache.codec import CodecError, decode, encode
@@ -102,6 +103,7 @@ class TestRoundTrip:
             ((Kind.KEY, Kind.FILL), tuple[Kind, ...]),
             ("soft", Literal["soft", "hard"]),
             (None, Lamp | None),
+            (Lamp(power=1.0), TypeAliasType("Alias", Lamp | None)),
             (Lamp(power=1.0), Loose | Lamp | None),
             (3, float),
             (np.float32(0.1), float),

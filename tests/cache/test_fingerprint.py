@@ -192,6 +192,12 @@ class TestChanges:
         after = of(load({"blur.py": calls, "tables.py": ("float(path", "int(path")}))
         assert before.digest != after.digest
 
+    def test_a_class_made_by_a_function(self):
+        """Neither its docstring nor the line it stands on counts; what it says does."""
+        plain = "def f():\n    class C:\n        a = 1\n    return C"
+        documented = plain.replace("class C:", '# a remark\n    class C:\n        """What it is."""')
+        assert _cell(plain) == _cell(documented) != _cell(plain.replace("a = 1", "a = 2"))
+
     def test_lambdas_from_outside(self, load, monkeypatch):
         """Two different functions patched in from unreleased code give two digests."""
         module = load()
