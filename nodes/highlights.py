@@ -14,6 +14,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.blur import blurred
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Image, Landmarks
 
@@ -59,7 +60,7 @@ def unclipped(
 
     small = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), np.float32)
     # Near to the highlight in brightness is near in kind; what has a clipped channel has no colour to give.
-    weight = (trust(small).min(axis=2) * np.square(small.mean(axis=2)) + np.float32(1e-6))[..., None]
+    weight = (trust(small).min(axis=2) * np.square(channel_mean(small)) + np.float32(1e-6))[..., None]
     sums = np.concatenate([small * weight, weight], axis=2)
     sigma = max(reach * landmarks.interocular * scale, 0.5)
     sums = blurred(sums, sigma) + np.float32(_FAR_SHARE) * blurred(sums, _FAR * sigma)

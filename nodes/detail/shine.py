@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.detail.bands import edited_map, gaussian
 from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
 
@@ -34,7 +35,7 @@ def shine(
     unit = max(landmarks.interocular, 1e-3)
 
     def edit(values: FloatArray) -> FloatArray:
-        grey = values.mean(axis=2, dtype=np.float32)
+        grey = channel_mean(values)
         excess = gaussian(grey, 0.02 * unit) - gaussian(grey, SIZE * unit)
         edited = values + np.float32(strength - 1) * np.maximum(excess - np.float32(KNEE), 0)[..., None]
         return np.asarray(edited, np.float32)

@@ -26,6 +26,7 @@ from pydantic import Field
 
 from graphface import node, warn
 from graphface.nodes.blur import blurred
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.detail.rendering import in_three_channels, rendering
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Landmarks, Shading
@@ -66,7 +67,7 @@ def split(
 
     def compare(rows: slice) -> None:
         rendered[rows] = rendering(albedo[rows], shading[rows])
-        above, below = (_grey(v[rows]) + np.float32(floor) for v in (source, rendered))
+        above, below = (channel_mean(v[rows]) + np.float32(floor) for v in (source, rendered))
         ratio[rows] = np.log(np.maximum(above, 1e-4) / np.maximum(below, 1e-4))
 
     by_strips(compare, source.shape)
@@ -82,11 +83,6 @@ def split(
     # A copy: what shares memory with a photo that the caller owns is not remembered.
     ceiling = None if source is photo.pixels else photo.pixels.copy()
     return DetailMap(offset=offset, gain=gain, pivot=rendered, ceiling=ceiling)
-
-
-def _grey(pixels: FloatArray) -> FloatArray:
-    grey: FloatArray = (pixels[..., 0] + pixels[..., 1] + pixels[..., 2]) * np.float32(1 / 3)
-    return grey
 
 
 def _bounded(ratio: FloatArray, bound: float) -> FloatArray:

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.intrinsic.logarithm import finite_pixels
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
@@ -42,11 +43,6 @@ def intensity(
     return Intrinsic(albedo=pixels / shading[..., None], shading=shading)
 
 
-def _mean(pixels: FloatArray) -> FloatArray:
-    total: FloatArray = (pixels[..., 0] + pixels[..., 1] + pixels[..., 2]) * np.float32(1 / 3)
-    return total
-
-
 def _luma(pixels: FloatArray) -> FloatArray:
     return pixels @ np.array([0.2126, 0.7152, 0.0722], np.float32)
 
@@ -55,4 +51,4 @@ def _value(pixels: FloatArray) -> FloatArray:
     return np.maximum(np.maximum(pixels[..., 0], pixels[..., 1]), pixels[..., 2])
 
 
-_MEASURES = {"mean": _mean, "luma": _luma, "value": _value}
+_MEASURES = {"mean": channel_mean, "luma": _luma, "value": _value}

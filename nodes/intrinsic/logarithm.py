@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphface import warn
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
 DARKEST = 1 / 64
@@ -24,13 +25,13 @@ def finite_pixels(photo: Image, operator: str) -> FloatArray:
 
 def log_intensity(pixels: FloatArray, darkest: float = DARKEST) -> FloatArray:
     """log of the mean of R, G and B, at least `darkest`; H x W."""
-    return np.log(np.maximum(_mean(pixels), np.float32(darkest)))
+    return np.log(np.maximum(channel_mean(pixels), np.float32(darkest)))
 
 
 def chromaticity(pixels: FloatArray, darkest: float = DARKEST) -> FloatArray:
     """Colour without brightness, (R, G, B) / (R + G + B), H x W x 3; drawn towards grey in the dark."""
     padded = np.maximum(pixels, 0) + np.float32(darkest)
-    grey: FloatArray = padded / (3 * _mean(padded))[..., None]
+    grey: FloatArray = padded / (3 * channel_mean(padded))[..., None]
     return grey
 
 
@@ -46,7 +47,7 @@ def separated(pixels: FloatArray, log_shading: FloatArray, mask: Mask | None, fl
     """
     # Subtracting the highest value first keeps exp in range whatever constant the solve left over.
     relative = np.exp(np.clip(log_shading - log_shading.max(), -12, 0))
-    scale = _average(_mean(pixels), mask) / max(_average(relative, mask), 1e-6)
+    scale = _average(channel_mean(pixels), mask) / max(_average(relative, mask), 1e-6)
     shading = np.clip(np.float32(scale) * relative, np.float32(floor), np.float32(8)).astype(np.float32, copy=False)
     return Intrinsic(albedo=pixels / shading[..., None], shading=shading)
 
@@ -56,8 +57,3 @@ def _average(values: FloatArray, mask: Mask | None) -> float:
     if mask is None or not total > 1e-6:
         return float(values.mean(dtype=np.float64))
     return float((values * mask).sum(dtype=np.float64) / total)
-
-
-def _mean(pixels: FloatArray) -> FloatArray:
-    total: FloatArray = (pixels[..., 0] + pixels[..., 1] + pixels[..., 2]) * np.float32(1 / 3)
-    return total

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.intrinsic.logarithm import DARKEST, finite_pixels, separated
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
@@ -32,7 +33,7 @@ def multiscale_retinex(
         albedo * shading is the photo.
     """
     pixels = finite_pixels(photo, "intrinsic.multiscale_retinex")
-    intensity = np.maximum(pixels.mean(axis=2, dtype=np.float32), 0)
+    intensity = np.maximum(channel_mean(pixels), 0)
     longest = max(intensity.shape)
     surrounds = [np.log(np.maximum(_blurred(intensity, share * longest), np.float32(DARKEST))) for share in SURROUNDS]
     return separated(pixels, np.mean(surrounds, axis=0, dtype=np.float32), mask, floor)

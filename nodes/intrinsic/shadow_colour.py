@@ -15,6 +15,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.blur import blurred
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, FloatArray, Image, Landmarks, Mask
@@ -80,9 +81,6 @@ def shadow_colour(
 
 def _mean_and_saturation(pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Mean of the channels, and how far the least lies below it as a share of it: 0 for grey, 1 for a pure colour."""
-    import cv2
-
-    red, green, blue = cv2.split(pixels)
-    mean = (red + green + blue) * np.float32(1 / 3)
-    least = np.minimum(np.minimum(red, green), blue)
+    mean = channel_mean(pixels)
+    least = np.minimum(np.minimum(pixels[..., 0], pixels[..., 1]), pixels[..., 2])
     return mean, np.maximum(1 - least / np.maximum(mean, _LEAST), 0)

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import Lazy, Needs, node
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.strips import by_strips
@@ -25,10 +26,7 @@ def hair_shine(photo: Image, labels: Segmentation, mask: Mask, *, dull: Percent 
             light amid the new would show: nothing shines where the mask is 1.
         dull, bright: percentiles of the hair's intensity between which the answer rises from 0 to 1.
     """
-    import cv2
-
-    red, green, blue = cv2.split(photo.pixels)
-    grey: FloatArray = (red + green + blue) * np.float32(1 / 3)
+    grey = channel_mean(photo.pixels)
     of_hair = grey[labels.hair > 0.5]
     if of_hair.size < 2:
         return np.zeros_like(grey)
@@ -62,8 +60,7 @@ def response(
     Returns:
         1 where the label is face; elsewhere own / estimated, at most 1.
     """
-    grey = estimated.mean(axis=2) if estimated.ndim == 3 else estimated
-    share = np.clip(own / np.maximum(grey, np.float32(floor)), 0, 1)
+    share = np.clip(own / np.maximum(channel_mean(estimated), np.float32(floor)), 0, 1)
     return np.asarray(1 + (share - 1) * (1 - labels.face), np.float32)
 
 

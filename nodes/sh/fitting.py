@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.sh.bounded import nonnegative_coefficients
 from graphface.nodes.sh.harmonics import ambient, basis, has_surface
 from graphface.nodes.types import FloatArray, Lighting, LightingFit, Mask, Normals, Shading
@@ -67,8 +68,8 @@ def fit(
     used = (mask > 0) & has_surface(normals)
     if not np.isfinite(shading).all():
         used &= np.isfinite(shading.reshape(*mask.shape, -1)).all(axis=2)
-    if grey and shading.ndim == 3:
-        shading = shading.mean(axis=2, dtype=np.float32)
+    if grey:
+        shading = channel_mean(shading)
     if not used.any():
         warn("sh.fit: the mask holds no pixel with a normal; took the mean shading of the picture as ambient light")
         return _ambient_fit(shading, order)

@@ -11,14 +11,12 @@ import PIL.Image as Pillow
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from hypothesis.extra import numpy as hnp
 from PIL import ImageCms
 
 from graphface import GraphfaceWarning, UnreadableFile, UnwritableFile
+from graphface.nodes.colour import decode_srgb
 from graphface.nodes.image import (
-    decode_srgb,
     encode,
-    encode_srgb,
     image_from_array,
     read_image,
     read_text,
@@ -487,29 +485,7 @@ class TestFromArray:
         assert not np.shares_memory(image.pixels, array)
 
 
-class TestEncoding:
-    def test_reference_values(self):
-        """Middle grey, the knee, and the ends."""
-        linear = np.array([0, 0.0031308, 0.2140411, 1, -0.2140411], np.float32)
-        np.testing.assert_allclose(encode_srgb(linear), [0, 0.04045, 0.5, 1, -0.5], atol=2e-5)
-
-    @given(hnp.arrays(np.float32, hnp.array_shapes(min_dims=0, max_dims=4), elements=st.floats(-4, 4, width=32)))
-    def test_inverse(self, values):
-        """Decoding undoes encoding for any shape, below 0 and above 1 too."""
-        np.testing.assert_allclose(decode_srgb(encode_srgb(values)), values, atol=2e-6, rtol=2e-6)
-
-    @given(st.floats(-4, 4, width=32), st.floats(-4, 4, width=32))
-    def test_monotonic(self, one, other):
-        """A brighter value stays at least as bright, across the knees."""
-        low, high = sorted([one, other])
-        encoded = encode_srgb(np.array([low, high], np.float32))
-        assert encoded[0] <= encoded[1] + 1e-6
-
-    def test_every_byte_survives(self):
-        """All 256 sRGB levels decode and encode to themselves."""
-        levels = np.arange(256, dtype=np.float32) / 255
-        np.testing.assert_array_equal(np.rint(encode_srgb(decode_srgb(levels)) * 255), np.arange(256))
-
+class TestEncode:
     def test_same_encoding_is_the_same_object(self):
         """Nothing is computed where nothing changes."""
         image = Image(smooth())
