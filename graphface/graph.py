@@ -124,7 +124,8 @@ class Graph:
         Args:
             outputs: names of declared outputs, or any "node" or "node.field"; all declared ones by default.
             evaluator: where to run and what to keep; by default one per process with a memory tier.
-            inputs: arrays, values or paths by input name.
+            inputs: arrays, values or paths by input name. One called `outputs` or `evaluator` goes another way:
+                `evaluator.run(graph, graph.bind({"outputs": value}), graph.targets())`.
 
         Raises:
             InputError, UnreadableFile: an input is missing or does not fit. RunFailed: a node failed.

@@ -6,7 +6,7 @@ the same graph on reduced inputs, answers while the full result is still to come
 last few states are remembered, so that hours of dragging a light neither fill the memory nor push the representation
 out of it. (Memory that was in use a moment ago is also faster to write to than new.)
 
-    session = Session(load("relight"), shrink={"photo": half_size}, photo="portrait.jpg")
+    session = Session(load("relight"), {"photo": "portrait.jpg"}, shrink={"photo": half_size})
     session.edit(scene=scene)
     session.preview()["image"]      # quick and small
     session.render()["image"]       # full
@@ -34,22 +34,22 @@ class Session:
 
     Args:
         graph: what is evaluated.
+        inputs: input name to array, value or path; a mapping, so that no name of an input can be taken for a setting.
         draft: what the preview evaluates, such as the same graph with a quick profile; by default `graph`.
         shrink: input name to a function that makes the preview's value of the full one.
         evaluator: what runs and remembers; one with a memory tier by default.
         history: how many states of each node are remembered, for going back to them at no cost.
-        inputs: as in `Graph.run`.
     """
 
     def __init__(
         self,
         graph: Graph,
+        inputs: Mapping[str, Any] | None = None,
         *,
         draft: Graph | None = None,
         shrink: Mapping[str, Shrink] | None = None,
         evaluator: Evaluator | None = None,
         history: int = 4,
-        **inputs: Any,
     ) -> None:
         self.graph = graph
         self.draft = draft if draft is not None else graph
@@ -62,7 +62,7 @@ class Session:
         self._history = max(1, history)
         self._past: dict[tuple[bool, str], list[bytes]] = {}
         self._lock = threading.Lock()
-        self.edit(**inputs)
+        self.edit(**(inputs or {}))
 
     def edit(self, /, **inputs: Any) -> None:
         """Change some inputs; the others keep their values and are not looked at again.

@@ -44,12 +44,25 @@ class TestSession:
         from graphface.nodes.image import image_from_array
 
         photo, other, third = (image_from_array(picture(v)) for v in (0.1, 0.2, 0.3))
-        session = Session(relight, photo=photo, other=other)
+        session = Session(relight, {"photo": photo, "other": other})
         assert {"a", "b"} <= ran(session.render())
         session.edit(other=third)
         again = ran(session.render())
         assert "b" in again
         assert "a" not in again
+
+    def test_an_input_may_have_the_name_of_a_setting(self):
+        """`history`, `graph` and `draft` are inputs like any other, when the session begins and when it is edited."""
+        names = ["draft", "graph", "history", "inputs", "self"]
+        encode = {"use": "image.encode", "with": {"encoding": "srgb"}}
+        nodes = {f"of_{name}": encode | {"in": {"photo": name}} for name in names}
+        outputs = {name: name for name in nodes}
+        inputs = dict.fromkeys(names, "Image")
+        graph = load({"graphface": 1, "name": "named", "inputs": inputs, "nodes": nodes, "outputs": outputs})
+        session = Session(graph, dict.fromkeys(names, picture(0.1)))
+        session.edit(**dict.fromkeys(names, picture(0.2)))
+        result = session.render()
+        assert all((result[name].pixels == np.float32(0.2)).all() for name in outputs)
 
     def test_unedited_inputs_are_not_bound_again(self, relight, tmp_path):
         """A file that was deleted meanwhile is not missed."""
@@ -57,7 +70,7 @@ class TestSession:
 
         path = tmp_path / "photo.png"
         write_picture(np.zeros((4, 4, 3), np.uint8), path)
-        session = Session(relight, photo=path, other=picture(0.2))
+        session = Session(relight, {"photo": path, "other": picture(0.2)})
         session.render()
         path.unlink()
         session.edit(other=picture(0.3))
@@ -65,7 +78,7 @@ class TestSession:
 
     def test_the_preview_is_reduced(self, relight):
         """Half the side where asked, the full size elsewhere."""
-        session = Session(relight, shrink={"photo": halved}, photo=picture(0.1), other=picture(0.2))
+        session = Session(relight, {"photo": picture(0.1), "other": picture(0.2)}, shrink={"photo": halved})
         small = session.preview()
         assert small["a"].pixels.shape == (4, 4, 3)
         assert small["b"].pixels.shape == (8, 8, 3)
@@ -73,14 +86,14 @@ class TestSession:
 
     def test_the_preview_follows_edits(self, relight):
         """It shows the input as it is now."""
-        session = Session(relight, shrink={"photo": halved}, photo=picture(0.1), other=picture(0.2))
+        session = Session(relight, {"photo": picture(0.1), "other": picture(0.2)}, shrink={"photo": halved})
         before = session.preview()["a"].pixels[0, 0, 0]
         session.edit(photo=picture(0.9))
         assert session.preview()["a"].pixels[0, 0, 0] > before
 
     def test_a_wrong_edit_changes_nothing(self, relight):
         """The session stays as it was."""
-        session = Session(relight, photo=picture(0.1), other=picture(0.2))
+        session = Session(relight, {"photo": picture(0.1), "other": picture(0.2)})
         with pytest.raises(InputError):
             session.edit(phtoo=picture(0.5))
         assert session.edits == 1
@@ -91,7 +104,7 @@ class TestSession:
         from graphface.nodes.image import image_from_array
 
         photo, other, third = (image_from_array(picture(v)) for v in (0.1, 0.2, 0.3))
-        session = Session(relight, photo=photo, other=other)
+        session = Session(relight, {"photo": photo, "other": other})
         session.render()
         session.edit(other=third)
         fates = {node.name: node.fate for node in session.plan()}
@@ -101,7 +114,7 @@ class TestSession:
 class TestHistory:
     def edits(self, relight, count, **settings):
         """A session whose input `other` was edited so many times, rendering each."""
-        session = Session(relight, photo=picture(0.1), other=picture(0), **settings)
+        session = Session(relight, {"photo": picture(0.1), "other": picture(0)}, **settings)
         for turn in range(count):
             session.edit(other=picture(turn / 100))
             session.render()

@@ -48,7 +48,7 @@ class Cost:
 def scene_costs(photo: Path | None, megapixels: float, repeats: int) -> Iterator[Cost]:
     """One row for each plain edit and each shipped scene."""
     image = _scaled(_astronaut() if photo is None else read_image(photo), megapixels)
-    session = Session(load("relight"), photo=image)
+    session = Session(load("relight"), {"photo": image})
     session.render(["image", "face.labels"])
     named = {name: Scene.coerce(given) for name, given in PLAIN.items()}
     named |= {path.stem: Scene.from_file(path) for path in shipped_scenes()}
