@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphface.cache.disk import MARK
+from graphface.cache.folder import MARK
 from graphface.cache.keys import CODE
 from graphface.errors import UnwritableFile
 from graphface.inputs import Bound

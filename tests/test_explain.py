@@ -9,7 +9,8 @@ import pytest
 from toys import toy_registry
 
 from graphface import Evaluator, Graph, MemoryTier, Registry, RunFailed, load
-from graphface.cache.disk import MARK, DiskTier
+from graphface.cache.disk import DiskTier
+from graphface.cache.folder import MARK
 from graphface.cli import main
 from graphface.explain import ELSEWHERE, UNCHANGED, Explained, Sizes, explain, with_results
 from graphface.history import History, Remember

@@ -18,8 +18,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from graphface import UsageError
-from graphface.cache import disk as disk_module
-from graphface.cache.disk import MARK, DiskTier
+from graphface.cache import folder as folder_module
+from graphface.cache import whole_file
+from graphface.cache.disk import DiskTier
+from graphface.cache.folder import MARK
 from graphface.cache.memory import MISSING
 from graphface.nodes.types import Image
 
@@ -257,7 +259,7 @@ class TestFolder:
         def fail(*_: object) -> int:
             raise OSError(code, os.strerror(code))
 
-        monkeypatch.setattr(disk_module, "_write_all", fail)
+        monkeypatch.setattr(whole_file, "_write_all", fail)
         assert not tier.put(KEY, ARRAY, cost_seconds=0)
         assert os.strerror(code) in reports[0]
         assert tier.verify().unfinished == []
@@ -270,7 +272,7 @@ class TestFolder:
         stray.write_bytes(b"half")
         tier.verify(drop=True)
         assert stray.exists()
-        monkeypatch.setattr(disk_module, "STRAY_AFTER_S", -1)
+        monkeypatch.setattr(folder_module, "STRAY_AFTER_S", -1)
         tier.verify(drop=True)
         assert not stray.exists()
 
