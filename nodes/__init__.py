@@ -8,13 +8,14 @@ from graphface import Pack
 _TYPES = "graphface.nodes.types"
 _INTRINSIC = ("intensity", "retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 _MASKS = "graphface.nodes.masks"
+_LABELS = ("face", "geometric", "features", "hair", "classify", "network", "override")
 _RENDER = ("samples", "shade", "shadows", "spread", "head", "skin", "specular", "composite", "relit")
 _DETAIL = "graphface.nodes.detail"
 
 pack = Pack(
     name="graphface",
     graphs="graphface.graphs",
-    assets="graphface.nodes.landmarks.weights:ASSETS",
+    assets="graphface.nodes.landmarks.weights:ASSETS graphface.nodes.masks.weights:ASSETS",
     operators={
         "image": "graphface.nodes.image graphface.nodes.highlights",
         "landmarks": "graphface.nodes.landmarks.facemesh graphface.nodes.landmarks.given",
@@ -24,7 +25,7 @@ pack = Pack(
         "texture": "graphface.nodes.projection.texture",
         "overlay": "graphface.nodes.projection.overlay",
         "export": "graphface.nodes.projection.export",
-        "masks": " ".join(f"{_MASKS}.{m}" for m in ("face", "geometric", "features", "hair", "classify", "override")),
+        "masks": " ".join(f"{_MASKS}.{m}" for m in _LABELS),
         "matting": " ".join(f"graphface.nodes.matting.{m}" for m in ("none", "guided", "closed_form", "knn")),
         "regions": "graphface.nodes.regions",
         "intrinsic": " ".join(f"graphface.nodes.intrinsic.{method}" for method in _INTRINSIC),

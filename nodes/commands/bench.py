@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from graphface.nodes.commands.segmentation_truth import Segmented
+    from graphface.nodes.commands.segmentation_truth import Labeller, Segmented
 
 app = typer.Typer(help="Measure accuracy on ground truth, and the time it takes.", no_args_is_help=True)
 
@@ -186,10 +186,15 @@ def masks(
         str | None,
         typer.Option(help="Instead: how far labels of these photos (a folder, or faces/pd_*.png) jump with noise."),
     ] = None,
+    agreement: Annotated[
+        str | None, typer.Option(help="Instead: how far labels of these photos agree with those of masks.network.")
+    ] = None,
+    labels: Annotated[str, typer.Option(help="What finds the labels: classify or network.")] = "classify",
 ) -> None:
     """Segment the path-traced heads: overlap and boundary error of every label, time and memory, for each matting.
 
-    With --noise, segment photos with and without noise of one 8-bit level: overlap of every label with itself.
+    With --noise, segment photos with and without noise of one 8-bit level: overlap of every label with itself. With
+    --agreement, photos whose true labels nobody knows: overlap with what a network sees.
     """
     from statistics import fmean, median
 
@@ -197,14 +202,20 @@ def masks(
     from graphface.nodes.commands import segmentation_truth as truth
     from graphface.terminal import print_table
 
+    if labels not in truth.LABELLERS:
+        raise UsageError(f"--labels {labels!r}: expected {', '.join(truth.LABELLERS)}")
+    label = truth.LABELLERS[labels]
     if noise is not None:
-        _print_noise(noise)
+        _print_noise(noise, label)
+        return
+    if agreement is not None:
+        _print_agreement(agreement, label)
         return
     unknown = [name for name in matting or () if name not in truth.MATTINGS]
     if unknown:
         raise UsageError(f"--matting {unknown[0]!r}: expected {', '.join(truth.MATTINGS)}")
     chosen = {name: truth.MATTINGS[name] for name in matting or truth.MATTINGS}
-    found = list(truth.segment_truth(data, chosen))
+    found = list(truth.segment_truth(data, chosen, label))
     rows = []
     for name in chosen:
         own = [row for row in found if row.matting == name]
@@ -215,7 +226,7 @@ def masks(
     columns = [f">{figure} {label}" for label in truth.LABELS for figure in ("IoU", "edge px")]
     before = median(row.labels_ms for row in found)
     print_table(("matting", "head", *columns, ">ms", ">MB"), rows)
-    print(f"labels up to the classifiers: {before:.0f} ms (median)")
+    print(f"labels before matting: {before:.0f} ms (median)")
 
 
 @app.command()
@@ -248,13 +259,31 @@ def matting(
     print(f"ratio at least {least:.1f}, alphas apart by at most {most:.4f} (mean over the picture)")
 
 
-def _print_noise(photos: str) -> None:
+def _files(pattern: str) -> list[Path]:
     from graphface.mapping import read_map
+
+    return [Path(file) for file in read_map(f"photos={pattern}")[1]]
+
+
+def _print_agreement(photos: str, label: Labeller) -> None:
+    from statistics import fmean
+
+    from graphface.nodes.commands.segmentation_agreement import segment_agreement
+    from graphface.terminal import print_table
+
+    found = sorted(segment_agreement(_files(photos), label), key=lambda one: one.worst)
+    columns = list(zip(*(one.overlaps for one in found), strict=True))
+    means = [fmean(known) if (known := [o for o in column if o is not None]) else None for column in columns]
+    named = [*((one.photo, one.overlaps) for one in found), ("mean", means)]
+    rows = [(name, *("" if value is None else f"{value:.3f}" for value in values)) for name, values in named]
+    print_table(("photo", ">face", ">hair", ">background"), rows)
+
+
+def _print_noise(photos: str, label: Labeller) -> None:
     from graphface.nodes.commands.segmentation_noise import segment_noise
     from graphface.terminal import print_table
 
-    files = [Path(file) for file in read_map(f"photos={photos}")[1]]
-    found = sorted(segment_noise(files), key=lambda one: one.worst)
+    found = sorted(segment_noise(_files(photos), label=label), key=lambda one: one.worst)
     rows = [(one.photo, *(f"{value:.3f}" for value in (*one.overlaps, one.worst))) for one in found]
     print_table(("photo", ">face", ">hair", ">background", ">worst"), rows)
     print(f"{sum(one.worst < 0.98 for one in found)} of {len(found)} photos below 0.98")

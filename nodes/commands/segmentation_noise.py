@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.commands.segmentation_truth import iou, segment_photo
+from graphface import GraphfaceError, warn
+from graphface.nodes.commands.segmentation_truth import Labeller, iou, segment_photo
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.matting.guided import guided
@@ -35,27 +36,37 @@ class Shaken:
         return min((o for o, s in zip(self.overlaps, self.shares, strict=True) if s >= LEAST), default=1.0)
 
 
-def segment_noise(photos: Iterable[Path], seeds: int = 2) -> Iterator[Shaken]:
+def segment_noise(photos: Iterable[Path], seeds: int = 2, label: Labeller = segment_photo) -> Iterator[Shaken]:
     """Segment every photo as graphs/segment.yaml does, as it is and with noise.
 
     The landmarks are those of the photo without noise: how steady they are is another stage's promise.
     """
+    for name, photo, landmarks in portraits(photos):
+        yield shaken(name, photo, landmarks, seeds, label)
+
+
+def portraits(photos: Iterable[Path]) -> Iterator[tuple[str, Image, Landmarks]]:
+    """Name, picture and landmarks of each file; what is no picture, or shows no face, is warned about and left out."""
     for path in photos:
-        photo = read_image(path)
-        yield shaken(path.stem, photo, find_landmarks(photo), seeds)
+        try:
+            photo = read_image(path)
+            yield path.stem, photo, find_landmarks(photo)
+        except GraphfaceError as error:
+            warn(f"{path.name} is left out: {error}")
 
 
-def shaken(name: str, photo: Image, landmarks: Landmarks, seeds: int = 2) -> Shaken:
+def likeliest(photo: Image, landmarks: Landmarks, label: Labeller) -> NDArray[np.intp]:
+    """The label of every pixel after guided matting, H x W: 0 face, 1 hair, 2 background."""
+    labels = guided(photo, label(photo, landmarks), landmarks)
+    return np.asarray(np.stack([labels.face, labels.hair, labels.background]).argmax(axis=0))
+
+
+def shaken(name: str, photo: Image, landmarks: Landmarks, seeds: int = 2, label: Labeller = segment_photo) -> Shaken:
     """One photo; noise adds -1, 0 or 1 level of 255 to every channel of every pixel."""
-    before = _likeliest(photo, landmarks)
+    before = likeliest(photo, landmarks, label)
     overlaps = [1.0, 1.0, 1.0]
     for seed in range(seeds):
         noise = np.random.default_rng(seed).integers(-1, 2, photo.pixels.shape) / 255
-        after = _likeliest(photo.with_pixels(np.clip(photo.pixels + noise, 0, 1)), landmarks)
+        after = likeliest(photo.with_pixels(np.clip(photo.pixels + noise, 0, 1)), landmarks, label)
         overlaps = [min(overlaps[k], iou(before == k, after == k)) for k in range(3)]
     return Shaken(name, tuple(overlaps), tuple(float((before == k).mean()) for k in range(3)))
-
-
-def _likeliest(photo: Image, landmarks: Landmarks) -> NDArray[np.intp]:
-    labels = guided(photo, segment_photo(photo, landmarks), landmarks)
-    return np.asarray(np.stack([labels.face, labels.hair, labels.background]).argmax(axis=0))

@@ -21,6 +21,7 @@ from graphface.nodes.masks.classify import classify
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
+from graphface.nodes.masks.network import network
 from graphface.nodes.matting.closed_form import closed_form
 from graphface.nodes.matting.guided import guided
 from graphface.nodes.matting.knn import knn
@@ -29,6 +30,7 @@ from graphface.nodes.morphable.facemesh import facemesh as build_mesh
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
+Labeller = Callable[[Image, Landmarks], Segmentation]
 Matting = Callable[[Image, Segmentation, Landmarks], Segmentation]
 
 MATTINGS: dict[str, Matting] = {"none": none, "guided": guided, "closed_form": closed_form, "knn": knn}
@@ -54,19 +56,25 @@ class Segmented:
     peak_mb: float
 
 
-def segment_truth(data: Path, mattings: dict[str, Matting] | None = None) -> Iterator[Segmented]:
+def segment_truth(
+    data: Path, mattings: dict[str, Matting] | None = None, label: Labeller | None = None
+) -> Iterator[Segmented]:
     """Segment every head of `data`/truth under frontal light with every choice of matting.
+
+    Args:
+        label: what finds the labels, before matting; the classifiers by default.
 
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
+    label = label or segment_photo
     heads = heads_of(data, "labels.png")
     for head in heads:
         photo = read_image(head / "frontal.png")
         truth = true_labels(head / "labels.png")
         landmarks = find_landmarks(photo)
-        segment_photo(photo, landmarks)  # once for nothing: imports and caches are not what is measured
-        labels, labels_ms, _ = _measured(lambda p=photo, at=landmarks: segment_photo(p, at))  # type: ignore[misc]
+        label(photo, landmarks)  # once for nothing: imports and caches are not what is measured
+        labels, labels_ms, _ = _measured(lambda p=photo, at=landmarks: label(p, at))  # type: ignore[misc]
         for name, matting in (mattings or MATTINGS).items():
             yield compared(head.name, name, matting, photo, landmarks, labels, truth, labels_ms)
 
@@ -76,6 +84,14 @@ def segment_photo(photo: Image, landmarks: Landmarks) -> Segmentation:
     masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
     features = pixel_features(photo, landmarks)
     return classify(features, masks, hair(features, masks, landmarks), landmarks, photo)
+
+
+def segment_by_network(photo: Image, landmarks: Landmarks) -> Segmentation:
+    """Labels before matting, as in the variant `network` of graphs/segment.yaml."""
+    return network(photo, landmarks, geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo)))
+
+
+LABELLERS: dict[str, Labeller] = {"classify": segment_photo, "network": segment_by_network}
 
 
 def true_labels(path: Path) -> FloatArray:

@@ -1,0 +1,139 @@
+"""Labels by a network that has seen many photos, beside `masks.classify`, which learns on this one alone.
+
+MediaPipe's multi-class selfie segmentation (Apache-2.0) labels a 256 x 256 picture as background, hair, body skin, face
+skin, clothes and accessories. It knows long hair on shoulders, fair hair, hats and hands for what they are. What is no
+photograph it does not know: path-traced heads with painted hair it labels far worse than the classifiers
+(`graphface bench masks --labels network`), so it is a choice, not the default.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from graphface import UsageError, node
+from graphface.assets import asset_path
+from graphface.nodes.landmarks.network import network_pixels
+from graphface.nodes.masks.classify import apart
+from graphface.nodes.masks.head import CHIN, EYE_LINE, pose_of
+from graphface.nodes.masks.prior import Layout, layout_of
+from graphface.nodes.masks.weights import SELFIE_MULTICLASS
+from graphface.nodes.masks.window import window_about
+from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
+
+SIDE = 256
+HAIR, SKIN = 1, slice(2, 4)
+"""Of the network's six classes; the others are background, clothes and accessories."""
+
+WORKING = 42
+"""Pixels per inter-ocular distance that labels are cleared of other people at: about what the network sees."""
+
+BESIDE = (1.2, 1.5)
+"""Distance from the middle of the face, in inter-ocular distances, from and up to which somebody else may stand. Long
+hair that falls nearer than that is never taken for another's: a lock under a shadow hangs by little, and would jump
+with noise."""
+
+_threads = threading.local()
+_starting = threading.Lock()
+
+
+@node("masks.network")
+def network(photo: Image, landmarks: Landmarks, masks: HeadMasks, *, mirrored: bool = True) -> Segmentation:
+    """Face, hair and background of a whole photo, by MediaPipe's selfie segmentation.
+
+    The network sees the part of the photo about the face (see `masks.window`), turned upright by quarter turns. What
+    the conservative mask holds is face, whatever is painted on it; what does not hang on this head is background.
+
+    Args:
+        photo: any size and encoding. masks: from the projected geometry.
+        mirrored: average with the labels of the mirrored picture: twice the time, half the jump under noise.
+
+    Raises:
+        UsageError: LiteRT is not installed. AssetUnavailable: see `graphface.assets.asset_path`.
+    """
+    window = window_about(landmarks, photo.pixels.shape, WORKING)
+    turns = _quarter_turns(landmarks)
+    seen = network_pixels(np.ascontiguousarray(photo.pixels[window.part]), photo.encoding)
+    chances = np.rot90(class_chances(np.rot90(seen, turns), mirrored), -turns)
+    import cv2
+
+    size = (window.width, window.height)
+    small = np.asarray(cv2.resize(np.ascontiguousarray(chances), size, interpolation=cv2.INTER_LINEAR), np.float32)
+    hair, face = small[..., HAIR], small[..., SKIN].sum(axis=2)
+    sure = window.shrunk(masks.conservative)
+    face = face + sure * np.maximum(1 - hair - face, 0)
+    layout = layout_of(landmarks, window)
+    face, hair = _of_this_head(face, hair, layout, landmarks.interocular * window.scale)
+    shape = photo.pixels.shape
+    face, hair = (window.enlarged(np.clip(labels, 0, 1), shape, beyond=0) for labels in (face, hair))
+    return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
+
+
+def class_chances(pixels: FloatArray, mirrored: bool) -> FloatArray:
+    """The network's probabilities, float32 256 x 256 x 6, of an upright picture h x w x 3 in [0, 1]."""
+    import cv2
+
+    shrinks = min(pixels.shape[:2]) > SIDE
+    method = cv2.INTER_AREA if shrinks else cv2.INTER_LINEAR
+    seen = np.asarray(cv2.resize(np.ascontiguousarray(pixels), (SIDE, SIDE), interpolation=method), np.float32)
+    logits = _logits(seen)
+    if mirrored:
+        logits = (logits + _logits(seen[:, ::-1])[:, ::-1]) / 2
+    raised = np.exp(logits - logits.max(axis=2, keepdims=True))
+    return np.asarray(raised / raised.sum(axis=2, keepdims=True), np.float32)
+
+
+def _of_this_head(face: FloatArray, hair: FloatArray, layout: Layout, unit: float) -> tuple[FloatArray, FloatArray]:
+    """Without the skin and hair of other people, which stand beside this head and do not hang on it."""
+    head = (layout.head < 0) & (layout.high > CHIN + 0.5)
+    skin = (layout.outline < 0) | (layout.neck < 0) | head
+    beside = np.clip((np.abs(layout.right) - BESIDE[0]) / (BESIDE[1] - BESIDE[0]), 0, 1)
+    strays = face * apart(face, skin, unit), hair * apart(hair, head & (layout.high > EYE_LINE), unit)
+    return face - beside * strays[0], hair - beside * strays[1]
+
+
+def _quarter_turns(landmarks: Landmarks) -> int:
+    """Counter-clockwise quarter turns that bring the face nearest to upright."""
+    up = pose_of(landmarks).rotation[:2, 1]
+    leaning = np.arctan2(up[0], up[1])  # of the head's own up to the picture's right
+    return round(float(leaning) / (np.pi / 2)) % 4
+
+
+def _logits(pixels: FloatArray) -> FloatArray:
+    net = _interpreter()
+    net.set_tensor(net.get_input_details()[0]["index"], np.ascontiguousarray(pixels[None], np.float32))
+    net.invoke()
+    return np.asarray(net.get_tensor(net.get_output_details()[0]["index"])[0], np.float32)
+
+
+def _interpreter() -> Any:
+    """This thread's interpreter: one keeps its input and output, and serves one thread at a time."""
+    if not hasattr(_threads, "net"):
+        try:
+            from ai_edge_litert.interpreter import Interpreter
+        except ImportError:
+            raise UsageError("masks.network needs LiteRT: pip install 'graphface[network]'") from None
+        path = str(asset_path(SELFIE_MULTICLASS))
+        with _starting, _without_chatter():
+            net = Interpreter(path, num_threads=2)
+            net.allocate_tensors()
+        _threads.net = net
+    return _threads.net
+
+
+@contextmanager
+def _without_chatter() -> Iterator[None]:
+    """LiteRT writes to file descriptor 2 which backend it chose, and knows no way to be asked not to."""
+    kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
