@@ -20,7 +20,7 @@ def dis(
     correspondence: Correspondence,
     landmarks: Landmarks,
     *,
-    resolution: Resolution = 120,
+    resolution: Resolution = 90,
     smoothing: Length = 0.1,
     tolerance: Length = 0.03,
     reach: Length = 0.15,

@@ -39,6 +39,9 @@ _CONTRAST = 45.0
 _WORTH = 0.02
 """Share of the face that must be seen by its mirror image only, for that to be matched as well."""
 
+_RESAMPLED = 0.02
+"""Mean square difference that two copies of one picture have once one of them was fetched: no reason to move."""
+
 _PRIOR_WEIGHT = 0.15
 """Weight of "no displacement" beside that of the flow, where flow has full confidence: 1."""
 
@@ -173,7 +176,8 @@ def _improvement(mine: FloatArray, before: FloatArray, after: FloatArray, unit: 
     """1 where moving halves the difference between the pictures, 0 where it was none: what fits stays."""
     around = 0.04 * unit
     old, new = (_smooth(np.square(mine - theirs), around) for theirs in (before, after))
-    return np.asarray(np.clip(2 * (old - new) / (old + np.float32(0.02)), 0, 1), np.float32)
+    gained = old - new - np.float32(_RESAMPLED)
+    return np.asarray(np.clip(2 * gained / (old + np.float32(0.02)), 0, 1), np.float32)
 
 
 def _moved(values: FloatArray, flow: FloatArray, top: int = 0) -> FloatArray:

@@ -44,7 +44,7 @@ def core(
     in_front: Mask | None = None,
     shown: Mask | None = None,
     *,
-    shrink: Annotated[float, Field(ge=0, le=1)] = 0.03,
+    shrink: Annotated[float, Field(ge=0, le=1)] = 0.0,
     softness: Annotated[float, Field(ge=0, le=1)] = 0.06,
 ) -> Mask:
     """Where the painted face is taken as it is: inside the mesh, off its rim, on skin that the reference shows.

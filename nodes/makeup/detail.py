@@ -19,6 +19,8 @@ from graphface.nodes.blur import blurred
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
 
+_LEAST_WEIGHT = np.float32(1e-3)
+
 Share = Annotated[float, Field(ge=0, le=1)]
 
 
@@ -74,20 +76,45 @@ def detail(
         if own is not None or other is not None:
             neutral = np.zeros if name == "offset" else np.ones
             own, other = (v if v is not None else neutral((*keep.shape, 3), np.float32) for v in (own, other))
-            parts[name] = _blended(own, other, keep, opening, sigma)
+            parts[name] = _blended(own, other, keep, opening, features.lips, sigma)
     return replace(reference, **parts)
 
 
-def _blended(own: FloatArray, other: FloatArray, keep: Mask, opening: Mask, sigma: float) -> FloatArray:
+def _blended(own: FloatArray, other: FloatArray, keep: Mask, opening: Mask, lips: Mask, sigma: float) -> FloatArray:
     """other + keep * (fine(own) - fine(other)), and `own` in the openings. Taking the fine part is linear: one blur."""
-    rows, columns = np.flatnonzero(keep.any(axis=1)), np.flatnonzero(keep.any(axis=0))
-    if rows.size == 0:
+    window = _box(keep)
+    if window is None:
         return other
     blended = other.copy()
-    window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     difference = own[window] - other[window]
-    broad = blurred(difference, sigma)
+    broad = _broad(difference, lips[window], sigma)
     open_part = opening[window][..., None]
     share = keep[window][..., None] * (1 - open_part)
     blended[window] += share * (difference - broad) + open_part * difference
     return blended
+
+
+def _broad(values: FloatArray, lips: Mask, sigma: float) -> FloatArray:
+    """Blurred, but not across the outline of the lips: how dark a thin lip is painted would count as fine otherwise."""
+    broad = blurred(values, sigma)
+    around = _box(lips, margin=round(3 * sigma))
+    if around is not None:
+        weight, near = lips[around], values[around]
+        inner = blurred(np.dstack([near * weight[..., None], weight]), sigma)
+        within, inside = inner[..., :3], inner[..., 3:]
+        outside = np.maximum(1 - inside, _LEAST_WEIGHT)
+        beyond = (broad[around] - within) / outside
+        within = within / np.maximum(inside, _LEAST_WEIGHT)
+        broad[around] = beyond + weight[..., None] * (within - beyond)
+    return broad
+
+
+def _box(mask: Mask, margin: int = 0) -> tuple[slice, slice] | None:
+    """The bounding box of what is not 0, grown by some pixels, or None."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    if rows.size == 0:
+        return None
+    first, last = (max(0, n[0] - margin) for n in (rows, columns)), (n[-1] + 1 + margin for n in (rows, columns))
+    top, left = first
+    bottom, right = last
+    return slice(top, bottom), slice(left, right)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import UsageError, node, warn
+from graphface.nodes.blur import blurred
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Mask, Mesh, Surface
@@ -18,6 +19,16 @@ Hidden = Literal["mirror", "input"]
 
 _UNSEEN = 0.05
 """What counts as not seen at all, 0..1: two photos that both do not show a point are equally good."""
+
+_STANDS_IN = 0.7
+"""How far the reference must show a point for its mirror image not to be asked."""
+
+_FADE = 0.04
+"""Width of the way from a point to its mirror image, inter-ocular distances, on the side where the point is shown: on
+the other side the reference may be anything."""
+
+_OUTLINE = 0.06
+"""Distance from the mesh's outline, inter-ocular distances, below which a place may show what is behind the face."""
 
 
 @node("warp.mesh")
@@ -64,19 +75,29 @@ def mesh(
     places, valid = _carried(surface, reference_mesh, own, shown, np.arange(len(own)), masks, size)
     if pins is not None and len(pins.points):
         places = places + _pinned(places, pins, pin_reach * mesh.interocular)
-    mirror = mesh.mirror if mesh.mirror is not None else _mirror_vertices(len(mesh.vertices))
+    mirror = _mirror_vertices(mesh)
     if hidden == "input" or mirror is None:
         if hidden == "mirror":
             warn("warp.mesh: this mesh has no known mirror image; what the reference hides stays the input's")
         return Correspondence(places, inside, valid, size)
-    needed = np.clip((0.5 - valid) * 2, 0, 1)
+    needed = _spread(np.clip((_STANDS_IN - valid) * 4, 0, 1) * inside, _FADE * mesh.interocular)
     mirrored, mirrored_valid = _carried(surface, reference_mesh, own, shown, mirror, masks, size, needed)
     mirrored_valid *= needed
     return Correspondence(places, inside, valid, size, mirrored, mirrored_valid)
 
 
+def _spread(needed: Mask, width: float) -> Mask:
+    """Grown, and fading out from where it ended."""
+    if not needed.any():
+        return needed
+    wider: Mask = np.maximum(needed, np.clip(2 * blurred(needed, max(width, 0.5)), 0, 1))
+    return wider
+
+
 def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.float64]:
-    """How far the reference shows each vertex, 0..1: inside the frame, turned to the viewer, nothing in front."""
+    """How far the photo shows each vertex, 0..1: inside the frame and the outline, turned here, nothing in front."""
+    import cv2
+
     height, width = surface.coverage.shape
     pixels = mesh.camera.project(mesh.vertices.astype(np.float64))
     in_frame = ((pixels >= -0.5) & (pixels <= np.array([width, height]) - 0.5)).all(axis=1)
@@ -84,7 +105,9 @@ def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.f
     behind = np.where(surface.coverage[y, x] > 0, surface.depth[y, x] - mesh.vertices[:, 2], 0)
     unoccluded = np.clip(2 - behind / max(0.12 * mesh.interocular, 1e-6), 0, 1)
     turned = np.clip((mesh.normals[:, 2] / facing - 0.5) * 2, 0, 1)
-    shown: NDArray[np.float64] = in_frame * unoccluded * turned
+    depth = cv2.distanceTransform((surface.coverage > 0).astype(np.uint8), cv2.DIST_L2, 3)
+    within = np.clip(depth[y, x] / max(_OUTLINE * mesh.interocular, 1e-6), 0, 1)
+    shown: NDArray[np.float64] = in_frame * unoccluded * turned * within
     return shown
 
 
@@ -145,10 +168,17 @@ def _window(covered: NDArray[np.bool_]) -> tuple[slice, slice]:
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
-def _mirror_vertices(count: int) -> NDArray[np.int32] | None:
-    """Which vertex each becomes in a mirror, for the meshes over the 468 points."""
-    mirror = facemesh_topology().mirror
-    return mirror if len(mirror) == count else None
+def _mirror_vertices(mesh: Mesh) -> NDArray[np.int32] | None:
+    """Which vertex each becomes in a mirror, for models that tell and for the meshes over the 468 points.
+
+    The vertices that `render.head` puts at the end (skull, neck) stand in for none but themselves.
+    """
+    known, count = mesh.mirror, len(mesh.vertices)
+    if known is None and count == len(facemesh_topology().mirror):
+        known = facemesh_topology().mirror
+    if known is None:
+        return None
+    return np.concatenate([known, np.arange(len(known), count, dtype=np.int32)])
 
 
 def _pinned(places: FloatArray, pins: Pins, reach: float) -> FloatArray:

@@ -80,7 +80,9 @@ def fetched(values: FloatArray, correspondence: Correspondence) -> FloatArray:
         other = correspondence.mirrored_valid[rows, columns]
         if other.any():
             part = _box(other > 0)
-            share = other[part] / np.maximum(other[part] + correspondence.valid[rows, columns][part], 1e-6)
+            # The mirror image as far as it is valid; where the point itself is not, nothing but it.
+            rest = correspondence.valid[rows, columns][part] * (1 - other[part])
+            share = other[part] / np.maximum(other[part] + rest, 1e-6)
             share = share.reshape(*share.shape, *[1] * (values.ndim - 2))
             window[part] += share * (at(correspondence.mirrored[rows, columns][part]) - window[part])
     out[rows, columns] = window

@@ -121,6 +121,14 @@ class TestDetail:
         closed = np.maximum(found.eyes, found.mouth) == 0
         np.testing.assert_allclose(blended[closed], -0.2, atol=1e-3)
 
+    def test_thin_lips_are_as_dark_as_the_references(self, face):
+        """Lips thinner than what counts as fine get the whole darkness of the lipstick, and the skin beside none."""
+        _, landmarks, _, _, found = face
+        own, other = np.zeros((200, 200, 3), np.float32), -0.4 * np.dstack([found.lips] * 3)
+        blended = detail(DetailMap(own), DetailMap(other), keep(found, lips=1), found, landmarks, fine=0.1).offset
+        assert np.median(blended[found.lips > 0.9]) < -0.25
+        np.testing.assert_allclose(blended[found.lips < 0.01], 0, atol=0.05)
+
     def test_equal_maps(self, face, rng):
         """Two equal maps blend to themselves, gain and all."""
         _, landmarks, _, _, found = face

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from graphface import GraphfaceWarning, UsageError
+from graphface.nodes.render.head import head
+from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import Mesh
 from graphface.nodes.warp.correspondence import Pins
 from graphface.nodes.warp.mesh import mesh as correspond
@@ -41,6 +43,33 @@ class TestMesh:
         assert min(shares) < 0.3
         assert max(shares) > 0.8
         assert found.known[found.inside > 0].mean() > max(shares) - 0.1
+
+    def test_no_line_between_a_point_and_its_mirror_image(self, make_face):
+        """On the way from the half that is shown to the one that is not, every pixel is known by one of the two."""
+        _, _, mesh, surface = make_face(size=320)
+        _, _, other, other_surface = make_face(size=320, yaw=40)
+        found = correspond(surface, mesh, other_surface, other)
+        between = (found.valid > 0.1) & (found.valid < 0.9) & (found.inside > 0)
+        # The mirror image of what lies near the middle may be hidden itself.
+        away = np.abs(pixels_of(found.inside)[..., 0] - 160) > 20
+        assert between[away].any()
+        assert (found.known[between & away] > 0.5).mean() > 0.98
+
+    def test_a_face_onto_itself_needs_no_mirror_image(self, make_face):
+        """Nothing is hidden, and what lies beyond the mesh does not count."""
+        _, _, mesh, surface = make_face(yaw=30)
+        assert correspond(surface, mesh, surface, mesh).mirrored_valid.max() == 0
+
+    def test_a_head_has_no_other_half(self, make_face):
+        """Skull and neck added to a face correspond by themselves; the face's own points still have mirror images."""
+        _, _, mesh, _ = make_face()
+        photo, _, other, _ = make_face(yaw=50)
+        heads = [head(m) for m in (mesh, other)]
+        surfaces = [rasterize(m, photo) for m in heads]
+        found = correspond(surfaces[0], heads[0], surfaces[1], heads[1])
+        assert len(heads[0].vertices) > len(mesh.vertices)
+        assert np.isfinite(found.mirrored).all()
+        assert found.mirrored_valid.max() > 0.9
 
     def test_hidden_parts_may_stay_the_inputs(self, make_face):
         """Without mirroring what is hidden is known nowhere."""

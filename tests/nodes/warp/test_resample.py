@@ -42,8 +42,17 @@ class TestFetched:
         assert np.isfinite(resample.photo(photo, found).pixels).all()
         alone = Correspondence(found.places, found.inside, found.valid, found.size)
         changed = np.abs(resample.photo(photo, found).pixels - resample.photo(photo, alone).pixels).max(axis=2)
-        assert changed[found.valid > 0.6].max() == 0
+        assert changed[found.mirrored_valid == 0].max() == 0
         assert changed[found.mirrored_valid > 0.5].mean() > 0.01
+
+    def test_where_the_point_is_hidden_nothing_of_it_is_left(self):
+        """However little the mirror image is worth: what lies in front of a hidden point is no part of the face."""
+        ramp = np.tile(np.arange(16, dtype=np.float32), (16, 1))
+        found = shifted(16, 0, 0)
+        hidden, little = np.zeros((16, 16), np.float32), np.full((16, 16), 0.1, np.float32)
+        mirrored = np.ascontiguousarray(found.places * (-1, 1) + (15, 0), np.float32)
+        got = resample.fetched(ramp, Correspondence(found.places, found.inside, hidden, (16, 16), mirrored, little))
+        np.testing.assert_allclose(got, ramp[:, ::-1], atol=1e-3)
 
     def test_every_part_of_a_detail_map(self, rng):
         """Offset and gain are both fetched; a part that is not there stays away."""
