@@ -163,6 +163,10 @@ class UnwritableFile(RunError):
         self.reason = reason
 
 
+class RefusedOutput(UnwritableFile, UsageError):
+    """As `UnwritableFile`, and seen before anything was run: a missing folder, a suffix that no writer knows."""
+
+
 def nearest_names(name: str, known: Iterable[str], count: int = 3) -> list[str]:
     """The known names most like `name`, best first; the same word behind another prefix ("face/light") is nearest."""
     candidates = list(known)

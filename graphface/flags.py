@@ -22,9 +22,12 @@ def read_flag(text: str, flag: str) -> tuple[str, Any]:
     if not equals or not all(NAME.fullmatch(part) for part in key.replace("/", ".").split(".")):
         raise DocumentError([Problem(f"expected name=value, got {text!r}", place)])
     if value[:1] in ("[", "{", "'", '"'):
-        tree, problems = parse(Source(flag, f"value: {value}"))
-        if problems:
-            raise DocumentError(problems)
+        try:
+            tree, problems = parse(Source(flag, f"value: {value}"))
+        except DocumentError as error:
+            tree, problems = None, error.problems
+        if problems:  # their places are in the value: the flag as a whole is what the user knows
+            raise DocumentError([Problem(p.message, place) for p in problems])
         return key, plain(tree["value"])
     return key, scalar(value)
 

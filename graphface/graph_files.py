@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from graphface.document import Document, read_document
-from graphface.errors import DocumentError, Problem, UnreadableFile, nearest_names
+from graphface.errors import DocumentError, Problem, UnreadableFile, did_you_mean, nearest_names
 from graphface.located import Place
 
 GRAPH_SUFFIXES = (".yaml", ".yml")
@@ -31,7 +31,8 @@ def find_graph(name: str, shipped: Sequence[Path]) -> Path:
                 return candidate
     known = shipped_graphs(shipped)
     hint = f" (shipped graphs: {', '.join(known)})" if known else ""
-    raise UnreadableFile(name, f"no such graph file{hint}")
+    near = did_you_mean(nearest_names(path.stem, known))
+    raise UnreadableFile(name, f"no such graph file{near}{hint}")
 
 
 def shipped_graphs(shipped: Sequence[Path]) -> list[str]:

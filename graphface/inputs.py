@@ -113,8 +113,8 @@ def _bind_file(entry: GraphInput, path: Path, reader: Reader, stat_shortcut: boo
         raise UnreadableFile(path, f"is a folder; input {entry.name!r} takes a file ({entry.type})")
     try:
         content = digest_file(path, stat_shortcut=stat_shortcut)
-    except OSError as error:
-        raise UnreadableFile(path, f"{error.strerror or error} (input {entry.name!r})") from None
+    except UnreadableFile as error:
+        raise UnreadableFile(path, f"{error.reason} (input {entry.name!r})") from None
     digest = digest_value(("file", str(entry.type), _code_of(reader), content))
     return Bound(entry.name, digest, str(path), lambda: reader(path), is_file=True)
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from graphface.errors import UnwritableFile
+from graphface.errors import RefusedOutput, UnwritableFile
 from graphface.frozen import arrays_in
 from graphface.values import ArrayType, PortType
 
@@ -53,19 +53,51 @@ def check_folder(path: Path) -> None:
     """See before anything runs that a result could be written there.
 
     Raises:
-        UnwritableFile: the folder is missing or read-only, or the path is a folder.
+        RefusedOutput: the folder is missing or read-only, or the path is a folder.
     """
     folder = path.parent
     try:
         if path.is_dir():
-            raise UnwritableFile(path, "is a folder; name a file in it")
+            raise RefusedOutput(path, "is a folder; name a file in it")
         if not folder.is_dir():
-            raise UnwritableFile(path, f"there is no folder {str(folder)!r}")
+            raise RefusedOutput(path, f"there is no folder {str(folder)!r}")
         handle, name = tempfile.mkstemp(prefix=".graphface-", dir=folder)
     except OSError as error:
-        raise UnwritableFile(path, f"cannot be written: {error.strerror}") from None
+        raise RefusedOutput(path, f"cannot be written: {error.strerror}") from None
     os.close(handle)
     os.unlink(name)
+
+
+def check_output(path: Path, declared: PortType) -> None:
+    """As `check_folder`, and that a value of the declared type can be written under that suffix.
+
+    Raises:
+        RefusedOutput: the folder is missing or read-only, the path is a folder, or no writer knows the suffix.
+    """
+    check_folder(path)
+    known: list[str] = []
+    for atom in declared.alternatives:
+        suffixes = getattr(atom, "suffixes", ())
+        if atom is object or (getattr(atom, "to_file", None) is not None and not suffixes):
+            return  # the value's own writer will tell
+        known += (*suffixes, ".npy") if _is_array(atom) else suffixes
+    known.append(".npz")
+    if path.suffix.lower() not in known:
+        reason = f"no {declared} can be written as {path.suffix!r}" if path.suffix else "its name has no suffix"
+        raise RefusedOutput(path, f"{reason}; use {' or '.join(dict.fromkeys(known))}")
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder for results, where there is none.
+
+    Raises:
+        RefusedOutput: a file has its name, or it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = "is a file; name a folder for the results" if folder.is_file() else error.strerror or str(error)
+        raise RefusedOutput(folder, reason) from None
 
 
 @contextmanager
@@ -102,6 +134,10 @@ def _writer(value: Any, declared: PortType) -> Callable[..., None] | None:
         if isinstance(atom, ArrayType) and atom.to_file is not None and atom.problem(value) is None:
             return atom.to_file
     return getattr(type(value), "to_file", None)
+
+
+def _is_array(atom: object) -> bool:
+    return isinstance(atom, ArrayType) or (isinstance(atom, type) and issubclass(np.ndarray, atom))
 
 
 def _umask() -> int:

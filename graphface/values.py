@@ -13,6 +13,7 @@ A class or an `ArrayType` may teach the engine some things, all optional:
 
 - `from_file(path)` reads a graph input, `to_file(value, path)` writes a graph output; where it also takes `text=`, a
   mapping of words to keep inside the file, results carry their provenance, and `text_in_file(path)` reads it back;
+- `suffixes`, a tuple such as (".png", ".jpg"), are those that `to_file` knows: another is refused before anything runs;
 - `coerce(object)` accepts what people have at hand in a notebook (an array for an image);
 - `picture(value)` draws the value as uint8, H x W x 3, for debugging.
 """
@@ -61,6 +62,7 @@ class ArrayType:
     parent: ArrayType | None = None
     from_file: Callable[[Path], Any] | None = None
     to_file: Callable[[Any, Path], None] | None = None
+    suffixes: tuple[str, ...] = ()
     picture: Callable[[Any], Any] | None = None
 
     def is_a(self, other: ArrayType) -> bool:

@@ -24,6 +24,9 @@ from graphface import ArrayType
 FloatArray = NDArray[np.float32]
 Encoding = Literal["srgb", "linear"]
 
+PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff")
+"""The suffixes that pictures are written as."""
+
 
 def _write_picture(pixels: Any, path: Path, text: Mapping[str, str] | None) -> None:
     from graphface.nodes.image import write_picture
@@ -80,7 +83,7 @@ def _map(name: str, shape: str, doc: str, picture: Any, **more: Any) -> ArrayTyp
     def to_file(value: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
         _write_picture(picture(value), path, text)
 
-    return ArrayType(name, shape, doc=doc, picture=picture, to_file=to_file, **more)
+    return ArrayType(name, shape, doc=doc, picture=picture, to_file=to_file, suffixes=PICTURES, **more)
 
 
 Mask = Annotated[
@@ -129,6 +132,8 @@ class Image:
     alpha: FloatArray | None = None
     encoding: Encoding = "srgb"
     file: FileFormat = FileFormat()
+
+    suffixes = PICTURES
 
     @property
     def height(self) -> int:
@@ -270,6 +275,8 @@ class Mesh:
     mirror: NDArray[np.int32] | None = None
     facemesh: NDArray[np.int32] | None = None
     fit: FitRecord | None = None
+
+    suffixes = (".obj", ".ply", ".glb", ".gltf")
 
     @staticmethod
     def to_file(mesh: Mesh, path: Path) -> None:

@@ -35,6 +35,7 @@ class TestReadFlag:
         place = caught.value.problems[0].place
         assert place is not None
         assert place.source.name == "--set"
+        assert place.excerpt.splitlines()[0].strip() == text.splitlines()[0]
 
 
 class TestFlagOverlays:

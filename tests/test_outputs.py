@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphface.errors import UnwritableFile
-from graphface.outputs import beside, check_folder, write_output
-from graphface.values import ANY, PortType
+from graphface.errors import RefusedOutput, UnwritableFile
+from graphface.outputs import beside, check_folder, check_output, make_folder, write_output
+from graphface.values import ANY, ArrayType, PortType
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,9 @@ class Two:
 class Stubborn:
     def to_file(self, path: Path) -> None:
         raise PermissionError(13, "Permission denied")
+
+
+DRAWN = ArrayType("Drawn", "H W", to_file=lambda value, path: None, suffixes=(".png",))
 
 
 class TestWriting:
@@ -84,3 +87,57 @@ class TestCheckFolder:
         """A folder, a missing folder and a name too long are told before anything runs."""
         with pytest.raises(UnwritableFile):
             check_folder(tmp_path / name)
+
+
+class TestCheckOutput:
+    @pytest.mark.parametrize(
+        ("declared", "name"),
+        [
+            (PortType((DRAWN,)), "a.PNG"),
+            (PortType((DRAWN,)), "a.npy"),
+            (PortType((Two,)), "a.npz"),
+            (PortType((np.ndarray,)), "a.npy"),
+            (PortType((Stubborn,)), "a.anything"),
+            (PortType((DRAWN, Stubborn)), "a.anything"),
+            (ANY, "a.anything"),
+        ],
+    )
+    def test_fine(self, tmp_path: Path, declared: PortType, name: str) -> None:
+        """A suffix that a writer knows, or may know."""
+        check_output(tmp_path / name, declared)
+
+    @pytest.mark.parametrize(
+        ("declared", "name"),
+        [
+            (PortType((DRAWN,)), "a.gif"),
+            (PortType((DRAWN,)), "a"),
+            (PortType((Two,)), "a.png"),
+            (PortType((Two,)), "a.npy"),
+            (PortType((float,), optional=True), "a.txt"),
+        ],
+    )
+    def test_refused(self, tmp_path: Path, declared: PortType, name: str) -> None:
+        """A suffix that none knows is refused, and those known are named."""
+        with pytest.raises(RefusedOutput, match=r"\.npz$"):
+            check_output(tmp_path / name, declared)
+
+    def test_suffixes_of_pictures(self) -> None:
+        """The suffixes that picture types promise are those that pictures are written as."""
+        from graphface.nodes.image_write import SUFFIXES
+        from graphface.nodes.types import PICTURES, Image
+
+        assert set(SUFFIXES) == set(PICTURES) == set(Image.suffixes)
+
+
+class TestMakeFolder:
+    def test_made(self, tmp_path: Path) -> None:
+        """With those above it; one that is there is left."""
+        for _ in range(2):
+            make_folder(tmp_path / "a" / "b")
+        assert (tmp_path / "a" / "b").is_dir()
+
+    def test_a_file_has_its_name(self, tmp_path: Path) -> None:
+        """It is said that this is a file."""
+        (tmp_path / "a").touch()
+        with pytest.raises(RefusedOutput, match="is a file"):
+            make_folder(tmp_path / "a")

@@ -116,7 +116,7 @@ def digest_file(path: Path | str, *, stat_shortcut: bool = True) -> bytes:
     Raises:
         UnreadableFile: it is missing, a folder, or not permitted.
     """
-    path = os.path.abspath(path)
+    given, path = path, os.path.abspath(path)
     try:
         before = _identity(os.stat(path))
         known = _remembered.get(path) if stat_shortcut else None
@@ -125,7 +125,7 @@ def digest_file(path: Path | str, *, stat_shortcut: bool = True) -> bytes:
         started = time.time_ns()
         digest, after = _hash_file(path)
     except OSError as error:
-        raise UnreadableFile(path, error.strerror or str(error)) from error
+        raise UnreadableFile(given, error.strerror or str(error)) from error
     settled = max(after.st_mtime_ns, after.st_ctime_ns) < started - RACY_NS
     if settled and _identity(after) == before:
         if len(_remembered) >= _FILES_REMEMBERED:

@@ -22,8 +22,8 @@ from graphface.cache.class_content import dataclass_fields, model_fields, own_na
 from graphface.cache.late_imports import LateImports
 from graphface.cache.ledger import MISSING, Ledger, type_name
 
-ENGINE_HOOKS = frozenset({"from_file", "to_file", "coerce", "picture"})
-"""Methods that the engine calls at the edges of a graph; they count where the code walked names them."""
+ENGINE_HOOKS = frozenset({"from_file", "to_file", "suffixes", "coerce", "picture"})
+"""What the engine uses at the edges of a graph; they count where the code walked names them."""
 
 
 def walk(roots: list[Callable[..., Any]], ledger: Ledger) -> None:

@@ -47,9 +47,9 @@ def ablate(
     from graphface.ablation.table import as_csv, as_markdown, columns, rows, shown
     from graphface.cache.memory import MemoryTier
     from graphface.cli.options import load_graph
-    from graphface.errors import UnwritableFile
     from graphface.evaluate import Evaluator
     from graphface.flags import read_flag
+    from graphface.outputs import make_folder
     from graphface.terminal import print_table, print_warnings
 
     box = _box(crop)
@@ -58,10 +58,7 @@ def ablate(
     name = output or next(iter(base.outputs), "")
     declared = base.type_of(base.targets([name])[name])
     truths = [_truth(base, declared, case, truth) for case in cases] if truth is not None else []
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UnwritableFile(out, error.strerror or str(error)) from None
+    make_folder(out)
     said: list[str] = []
     loading = {
         "set": dict(read_flag(text, "--set") for text in sets),

@@ -17,6 +17,9 @@ GraphName = Annotated[
 Inputs = Annotated[
     list[str], typer.Option("-i", "--input", metavar="NAME=VALUE", help="A graph input: a file, or a value.")
 ]
+Asked = Annotated[
+    list[str], typer.Option("-o", "--output", metavar="NAME", help="An output, or any node.port; default: all.")
+]
 Sets = Annotated[
     list[str], typer.Option("--set", metavar="NODE.PARAM=VALUE", help="Set a parameter; wins over everything.")
 ]
@@ -81,8 +84,20 @@ def open_cache(folder: Path | None, said: list[str]) -> DiskTier | None:
 
 
 def read_inputs(pairs: list[str]) -> dict[str, Any]:
-    """ "name=value" flags as a dictionary."""
-    return dict(_pair(text, "-i") for text in pairs)
+    """ "name=value" flags as a dictionary.
+
+    Raises:
+        UsageError: a flag is not of that form, or an input is given twice.
+    """
+    from graphface.errors import UsageError
+
+    given: dict[str, Any] = {}
+    for text in pairs:
+        name, value = _pair(text, "-i")
+        if name in given:
+            raise UsageError(f"-i {text!r}: input {name!r} is given twice; --map {name}=FOLDER runs every file of one")
+        given[name] = value
+    return given
 
 
 def _pair(text: str, flag: str) -> tuple[str, str]:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-import typer
-
 from graphface.cli.options import (
+    Asked,
     Cache,
     GraphName,
     Inputs,
@@ -24,9 +21,7 @@ from graphface.cli.options import (
 def plan(
     graph: GraphName,
     inputs: Inputs = [],  # noqa: B006
-    output: Annotated[
-        list[str], typer.Option("-o", "--output", metavar="NAME", help="An output, or any node.port; default: all.")
-    ] = [],  # noqa: B006
+    output: Asked = [],  # noqa: B006
     sets: Sets = [],  # noqa: B006
     replaces: Replaces = [],  # noqa: B006
     variants: Variants = [],  # noqa: B006

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -62,7 +63,7 @@ def run(
     from graphface.evaluate import Evaluator
     from graphface.history import History, Remember
     from graphface.observe import Observer
-    from graphface.outputs import check_folder, write_output
+    from graphface.outputs import check_folder, check_output, write_output
     from graphface.provenance import provenance
     from graphface.terminal import ProgressBar, print_times, print_warnings
     from graphface.trace import Trace
@@ -81,10 +82,13 @@ def run(
         )
         return
     files = output_files(loaded, output, given)
-    for path in (*files.values(), *([trace] if trace else [])):
-        check_folder(path)
     targets = loaded.targets(files)
     bound = loaded.bind(given)
+    for name, path in files.items():
+        check_output(path, loaded.type_of(targets[name]))
+    _check_kept(files.values(), given.values())
+    if trace is not None:
+        check_folder(trace)
     said: list[str] = []
     tracer = Trace(peaks=peaks)
     disk = open_cache(cache, said)
@@ -127,13 +131,16 @@ def run_map(
     from graphface.cache.memory import MemoryTier
     from graphface.evaluate import Evaluator
     from graphface.mapping import MapFailed, read_maps, run_over
-    from graphface.outputs import check_folder, write_output
+    from graphface.outputs import check_folder, check_output, write_output
     from graphface.provenance import provenance
     from graphface.terminal import ProgressBar, print_times, print_warnings
 
     over = read_maps(maps)
     _check_distinct(graph, output, given, over)
-    targets = graph.targets(output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}}))
+    first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
+    targets = graph.targets(first)
+    for name, path in first.items():
+        check_output(path, graph.type_of(targets[name]))
     said: list[str] = []
     failed, records, total = [], [], 0
     with ProgressBar() as bar:
@@ -178,8 +185,21 @@ def _check_distinct(graph: Graph, output: list[str], given: dict[str, str], over
                     f"name the mapped inputs in -o ({places}), and give their files different names"
                 )
             seen[path] = values
+    _check_kept(seen, itertools.chain(given.values(), *over.values()))
     for folder in {path.parent for path in seen}:
         check_folder(folder / "result")
+
+
+def _check_kept(results: Iterable[Path], given: Iterable[str]) -> None:
+    """Refuse before anything runs to write a result over a file that was given."""
+    import os
+
+    from graphface.errors import UsageError
+
+    kept = {os.path.realpath(file) for file in given}
+    for path in results:
+        if os.path.realpath(path) in kept:
+            raise UsageError(f"-o {path}: this file is an input, and would be lost; give the result another name")
 
 
 def output_files(graph: Graph, asked: list[str], given: dict[str, str]) -> dict[str, Path]:
@@ -201,6 +221,8 @@ def output_files(graph: Graph, asked: list[str], given: dict[str, str]) -> dict[
             if not graph.outputs:
                 raise UsageError(f"-o {text}: the graph declares no output; say -o NODE={text}")
             name, file = next(iter(graph.outputs)), text
+        if not name or not file:
+            raise UsageError(f"-o {text!r}: expected FILE or NAME=FILE")
         if name in files:
             raise UsageError(f"-o {text}: output {name!r} is asked for twice")
         files[name] = Path(_filled(file, given))

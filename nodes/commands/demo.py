@@ -31,15 +31,12 @@ def demo(
     """Relight a photograph under three scenes; writes the pictures and a contact sheet of every stage."""
     import os
 
-    from graphface import Evaluator, MemoryTier, UnwritableFile, load
+    from graphface import Evaluator, MemoryTier, load
     from graphface.nodes.image import write_picture
-    from graphface.outputs import write_output
+    from graphface.outputs import make_folder, write_output
     from graphface.terminal import ProgressBar, print_times, print_warnings
 
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UnwritableFile(folder, error.strerror or str(error)) from None
+    make_folder(folder)
     given = photo if photo is not None else astronaut()
     graph = load("relight")
     asked = ["image", "photo", "face.mesh", "face.landmarks", *(name for name, _ in _STAGES.values())]

@@ -10,29 +10,32 @@ import typer
 
 def gallery(
     folder: Annotated[Path, typer.Argument(help="Folder for the pictures; made if missing.")] = Path("gallery"),
-    photo: Annotated[list[Path] | None, typer.Option(help="Photographs; scikit-image's astronaut by default.")] = None,
-    scene: Annotated[list[Path] | None, typer.Option(help="Scene files; all shipped ones by default.")] = None,
-    profile: Annotated[list[str] | None, typer.Option(help="Profiles of the relight graph, such as draft.")] = None,
+    photo: Annotated[
+        list[Path] | None, typer.Option(metavar="FILE", help="Photographs; scikit-image's astronaut by default.")
+    ] = None,
+    scene: Annotated[
+        list[Path] | None, typer.Option(metavar="FILE", help="Scene files; all shipped ones by default.")
+    ] = None,
+    profile: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="Profiles of the relight graph, such as draft.")
+    ] = None,
     columns: Annotated[int, typer.Option(min=1, help="Pictures in a row of the sheet.")] = 6,
 ) -> None:
     """Relight photographs under every scene; one picture each and a contact sheet for each photograph."""
     import os
 
-    from graphface import Evaluator, MemoryTier, UnwritableFile, load
+    from graphface import Evaluator, MemoryTier, load
     from graphface.nodes.commands.demo import astronaut
     from graphface.nodes.commands.sheet import around_face, contact_sheet
     from graphface.nodes.image import write_picture
     from graphface.nodes.types import Image
-    from graphface.outputs import write_output
+    from graphface.outputs import make_folder, write_output
 
     scenes = scene or shipped_scenes()
     for files in (photo or [], scenes):
         _check_names(files)
     graph = load("relight", profiles=profile or ())
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UnwritableFile(folder, error.strerror or str(error)) from None
+    make_folder(folder)
     kind = graph.type_of(graph.outputs["image"])
     photos: list[Path | None] = [*photo] if photo else [None]
     for given in photos:

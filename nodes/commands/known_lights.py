@@ -23,6 +23,7 @@ from graphface.nodes.image import read_image, write_image
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.scene import DirectionalLight, Scene
 from graphface.nodes.types import FloatArray, Image
+from graphface.outputs import make_folder
 
 if TYPE_CHECKING:
     from graphface import Evaluator, Graph
@@ -121,7 +122,7 @@ def relight_known(cases: Iterator[Case], out: Path | None, variant: Variant, *, 
         if linear:
             result = decode_srgb(result)
         if out is not None:
-            (out / case.subject).mkdir(parents=True, exist_ok=True)
+            make_folder(out / case.subject)
             write_image(Image(np.asarray(result, np.float32)), out / case.subject / f"{case.light}.png")
         yield Figure(
             case.subject,

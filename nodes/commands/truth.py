@@ -31,6 +31,7 @@ from graphface.nodes.render.shade import shade
 from graphface.nodes.render.spread import spread, surroundings
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import Encoding, Image
+from graphface.outputs import make_folder
 
 LIGHTS = ("left45", "right45", "top", "left80_hard", "red_blue", "ambient")
 
@@ -117,7 +118,7 @@ def _relight_head(
         true_normals = maps["normal"].astype(np.float32)
     normal_error = mean_angle(normals, true_normals, face_label)
 
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     for light in LIGHTS if source == "frontal" else [name for name in ("frontal", *LIGHTS) if name != source]:
         scene = known_scene(lights[light], unit)
         new = spread(shade(points, scene, estimated), around)

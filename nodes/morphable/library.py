@@ -44,5 +44,5 @@ def named_model(name: str) -> MorphableModel:
         return load_model(Path(name))
     raise UsageError(
         f"no face model {name!r}{did_you_mean(nearest_names(name, known))} "
-        "Name one of `graphface models list`, or a .safetensors file"
+        "(`graphface models list` shows those at hand; a .safetensors file is another)"
     )

@@ -13,8 +13,6 @@ from graphface.nodes.projection.coordinates import mesh_uv
 from graphface.nodes.projection.texture import Texture
 from graphface.nodes.types import Image, Mesh
 
-SUFFIXES = (".obj", ".ply", ".glb", ".gltf")
-
 
 @dataclass(frozen=True)
 class TexturedMesh:
@@ -22,6 +20,8 @@ class TexturedMesh:
 
     mesh: Mesh
     texture: Texture
+
+    suffixes = Mesh.suffixes
 
     @staticmethod
     def to_file(textured: TexturedMesh, path: Path) -> None:
@@ -51,8 +51,8 @@ def write_mesh(mesh: Mesh, path: Path, texture: Texture | None = None) -> None:
     except ImportError:
         raise UsageError("writing meshes needs trimesh: pip install 'graphface[models]'") from None
     path = Path(path)
-    if path.suffix.lower() not in SUFFIXES:
-        raise UnwritableFile(path, f"a mesh is written as {', '.join(SUFFIXES)}")
+    if path.suffix.lower() not in Mesh.suffixes:
+        raise UnwritableFile(path, f"a mesh is written as {', '.join(Mesh.suffixes)}")
     made = trimesh.Trimesh(mesh.vertices, mesh.triangles, vertex_normals=mesh.normals, process=False)
     if texture is not None:
         made.visual = _visual(trimesh, mesh, texture, per_vertex=path.suffix.lower() == ".ply")

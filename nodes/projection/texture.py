@@ -30,6 +30,8 @@ class Texture:
         seen = texture.seen[..., None]
         return Image.picture(texture.image.with_pixels(texture.image.pixels * seen + 0.5 * (1 - seen)))
 
+    suffixes = Image.suffixes
+
     @staticmethod
     def to_file(texture: Texture, path: Any) -> None:
         Image.to_file(replace(texture.image, alpha=texture.seen), path)

@@ -28,6 +28,8 @@ def read_scene(path: Path, model: type[M]) -> M:
         raise UnreadableFile(path, error.strerror or "cannot be read") from None
     except UnicodeDecodeError:
         raise UnreadableFile(path, "is not a text file; a scene is a YAML file") from None
+    except RecursionError:
+        raise UnreadableFile(path, "is nested too deeply for a scene") from None
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         raise UnreadableFile(_at(path, mark), f"not YAML: {getattr(error, 'problem', error)}") from None

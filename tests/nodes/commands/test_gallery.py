@@ -80,7 +80,7 @@ class TestGallery:
         """A file in the place of the folder is named."""
         (tmp_path / "taken").write_text("")
         said = command("gallery", tmp_path / "taken")
-        assert said.code == 1
+        assert said.code == 2
         assert "taken" in said.err
 
 
