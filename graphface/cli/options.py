@@ -27,7 +27,7 @@ Replaces = Annotated[
     list[str], typer.Option("--replace", metavar="NODE=OPERATOR", help="Use another operator for a node.")
 ]
 Variants = Annotated[list[str], typer.Option("--variant", metavar="NAME", help="A variant that the graph declares.")]
-Profiles = Annotated[list[str], typer.Option("--profile", metavar="NAME", help="A profile: draft, full, ...")]
+Profiles = Annotated[list[str], typer.Option("--profile", metavar="NAME", help="A profile that the graph declares.")]
 Plugins = Annotated[list[Path], typer.Option("--plugin", metavar="FILE.py", help="A file of further operators.")]
 
 Cache = Annotated[
