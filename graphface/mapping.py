@@ -87,17 +87,25 @@ def read_map(text: str) -> tuple[str, list[str]]:
     name, equals, where = text.partition("=")
     if not (name and equals and where):
         raise UsageError(f"--map {text!r}: expected NAME=FOLDER or NAME=PATTERN")
-    path = Path(where)
-    if path.is_dir():
-        candidates = path.iterdir()
-    elif any(c in path.name for c in "*?[") and path.parent.is_dir():
-        candidates = path.parent.glob(path.name)
-    else:
-        raise UnreadableFile(where, f"is neither a folder nor a pattern in one (--map {name})")
-    files = sorted(str(f) for f in candidates if f.is_file() and not f.name.startswith("."))
+    try:
+        candidates = _matching(Path(where))
+        if candidates is None:
+            raise UnreadableFile(where, f"is neither a folder nor a pattern in one (--map {name})")
+        files = sorted(str(f) for f in candidates if f.is_file() and not f.name.startswith("."))
+    except OSError as error:  # a folder that may not be looked into
+        raise UnreadableFile(where, f"{error.strerror or error} (--map {name})") from None
     if not files:
         raise UnreadableFile(where, f"holds no file (--map {name})")
     return name, files
+
+
+def _matching(where: Path) -> Iterator[Path] | None:
+    """What a folder holds or a pattern matches; None where it is neither."""
+    if where.is_dir():
+        return where.iterdir()
+    if any(c in where.name for c in "*?[") and where.parent.is_dir():
+        return where.parent.glob(where.name)
+    return None
 
 
 def read_maps(texts: Sequence[str]) -> dict[str, list[str]]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import os.path
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -215,7 +216,7 @@ def _attribute(where: str) -> Any:
 def _import_file(path: Path) -> ModuleType:
     name = f"graphface_plugin_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None or not path.is_file():
+    if spec is None or spec.loader is None or not os.path.isfile(path):
         raise PluginError(f"{path}: no such plug-in file", path=path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module

@@ -128,8 +128,9 @@ def print_explained(explained: Sequence[Explained]) -> None:
 
 
 def print_warnings(warnings: Sequence[str]) -> None:
+    """Each warning once, in the order of its first mention."""
     console = Console(stderr=True)
-    for warning in warnings:
+    for warning in dict.fromkeys(warnings):
         console.print(f"warning: {warning}", style="yellow", markup=False, highlight=False, soft_wrap=True)
 
 

@@ -115,6 +115,18 @@ class TestReadMap:
         with pytest.raises(UsageError, match="twice"):
             read_maps([f"x={folder}", f"x={folder}"])
 
+    @pytest.mark.parametrize("where", ["", "/*.png"])
+    def test_may_not_be_looked_into(self, folder: Path, where: str, monkeypatch: pytest.MonkeyPatch) -> None:
+        """A folder that the operating system closes is told as such."""
+
+        def denied(path: Path, *_: object) -> None:
+            raise PermissionError(13, "Permission denied")
+
+        monkeypatch.setattr(Path, "iterdir", denied)
+        monkeypatch.setattr(Path, "glob", denied)
+        with pytest.raises(UnreadableFile, match="Permission denied"):
+            read_map(f"photo={folder}{where}")
+
 
 class TestCommand:
     """`graphface run --map NAME=FOLDER`."""

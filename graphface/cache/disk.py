@@ -60,7 +60,7 @@ class DiskTier:
         report: told in a sentence about everything dropped or not stored; by default `graphface.warn`.
 
     Raises:
-        UsageError: `folder` holds files and is not a cache of graphface, or is no folder.
+        UsageError: `folder` holds files and is not a cache of graphface, is no folder, or cannot be looked into.
     """
 
     def __init__(self, folder: Path | str, budget_bytes: int, report: Callable[[str], None] = warn) -> None:
@@ -70,7 +70,11 @@ class DiskTier:
         self._files = Folder(self.folder)
         self._room = Room(self._files, budget_bytes)
         self._counters = {"hits": 0, "misses": 0, "stored": 0, "evicted": 0, "dropped": 0}
-        if self._files.foreign():
+        try:
+            foreign = self._files.foreign()
+        except OSError as error:
+            raise UsageError(f"{self.folder} cannot be used as a cache: {error.strerror or error}") from None
+        if foreign:
             raise UsageError(f"{self.folder} is not a cache of graphface; name a new or an empty folder")
 
     def get(self, key: bytes, annotation: Any) -> Any:

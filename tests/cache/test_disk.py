@@ -215,6 +215,16 @@ class TestFolder:
         with pytest.raises(UsageError, match="not a cache"):
             DiskTier(tmp_path, MIB)
 
+    def test_refuses_a_folder_that_may_not_be_looked_into(self, tmp_path, monkeypatch):
+        """That the operating system denies it is said, before anything runs."""
+
+        def denied(folder, **_):
+            raise PermissionError(errno.EACCES, "Permission denied")
+
+        monkeypatch.setattr(Path, "exists", denied)
+        with pytest.raises(UsageError, match="Permission denied"):
+            DiskTier(tmp_path / "locked", MIB)
+
     def test_clear_refuses_without_mark(self, tier):
         """Without its mark a folder is not cleared."""
         tier.put(KEY, ARRAY, cost_seconds=0)
