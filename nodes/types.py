@@ -35,9 +35,10 @@ def _write_picture(pixels: Any, path: Path, text: Mapping[str, str] | None) -> N
 
 
 def _mask_from_file(path: Path) -> FloatArray:
+    from graphface.nodes.colour import channel_mean
     from graphface.nodes.image import read_image
 
-    return np.ascontiguousarray(read_image(path).pixels.mean(axis=2, dtype=np.float32))
+    return channel_mean(read_image(path).pixels)
 
 
 def _as_bytes(unit: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
