@@ -51,6 +51,7 @@ pack = Pack(
                 "in_front",
                 "skin",
                 "uncovered",
+                "shaved",
                 "coverage",
                 "boundary",
             )

@@ -90,8 +90,8 @@ def paint(
     mask: Mask,
     landmarks: Landmarks,
     *,
-    faint: Annotated[float, Field(ge=0, le=2)] = 0.2,
-    full: Annotated[float, Field(gt=0, le=2)] = 0.4,
+    faint: Annotated[float, Field(ge=0, le=2)] = 0.12,
+    full: Annotated[float, Field(gt=0, le=2)] = 0.3,
     margin: Scale = 0.03,
     resolution: Annotated[int, Field(ge=8, le=256)] = 80,
 ) -> Mask:
@@ -138,6 +138,7 @@ def detail(
     reference: DetailMap,
     mask: Mask,
     landmarks: Landmarks,
+    features: Features | None = None,
     *,
     broadest: Scale | None = 0.2,
     finest: Annotated[float, Field(ge=0, le=2)] = 0.0,
@@ -147,6 +148,8 @@ def detail(
     Args:
         detail: the input's. reference: warped to the input, in the input's exposure (`makeup.exposed` with tone 0).
         mask: how much of the band is exchanged; 0 leaves every bit as it is.
+        features: the input's. Lips are narrower than what is broad, so how dark they are would pass for relief, and a
+            neutral lipstick has no colour to be told by: with these, the darkness of lips over the skin stays too.
         broadest, finest: the band's ends as Gaussian scales, in inter-ocular distances: features broader than the one
             stay the input's (the light falling over its face is among them), and so do those finer than the other. None
             exchanges everything broad as well.
@@ -164,7 +167,8 @@ def detail(
             continue
         neutral = np.zeros if field.name == "offset" else np.ones
         own, other = (v if v is not None else neutral((*mask.shape, 3), np.float32) for v in (own, other))
-        parts[field.name] = _exchanged(own, other, mask, broadest and broadest * unit, finest * unit)
+        lips = None if features is None else features.lips
+        parts[field.name] = _exchanged(own, other, mask, broadest and broadest * unit, finest * unit, lips)
     return replace(detail, **parts)
 
 
@@ -204,10 +208,13 @@ def _mean(values: FloatArray) -> FloatArray:
     return grey
 
 
-def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float | None, finest: float) -> FloatArray:
+def _exchanged(
+    own: FloatArray, other: FloatArray, mask: Mask, broadest: float | None, finest: float, lips: Mask | None
+) -> FloatArray:
     """own + mask * band(other - own), within the mask's box: the band is linear, so the difference alone is filtered.
 
-    Broad differences are averaged over the mask only, so that eyes beside a cheek do not tint it.
+    Broad differences are averaged over the mask only, so that eyes beside a cheek do not tint it, and over the lips
+    apart from the skin.
     """
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
@@ -216,8 +223,19 @@ def _exchanged(own: FloatArray, other: FloatArray, mask: Mask, broadest: float |
     band = difference if finest < 0.3 else blurred(difference, finest)
     if broadest is not None:
         weight = np.minimum(share, 1)
-        broad = blurred(np.dstack([difference * weight, weight]), max(broadest, 0.5))
-        band = band - broad[..., :3] / np.maximum(broad[..., 3:], np.float32(1e-3))
+        if lips is None or not lips[window].any():
+            broad = _averaged(difference, weight, broadest)
+        else:
+            within = lips[window][..., None]
+            broad = _averaged(difference, weight * (1 - within), broadest)
+            broad += within * (_averaged(difference, weight * within, broadest) - broad)
+        band = band - broad
     changed = own.copy()
     changed[window] += share * band
     return changed
+
+
+def _averaged(values: FloatArray, weight: FloatArray, sigma: float) -> FloatArray:
+    """A Gaussian average over the weighted pixels; 0 far from all of them."""
+    total = blurred(np.dstack([values * weight, weight]), max(sigma, 0.5))
+    return np.asarray(total[..., :3] / np.maximum(total[..., 3:], np.float32(1e-3)), np.float32)

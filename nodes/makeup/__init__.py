@@ -2,5 +2,6 @@
 
 `features` where eyes, lips, nose ... are; `albedo` and `shading` the reference's paint under the input's light;
 `detail` the blended detail map; `skin` and `coverage` where paint may go and how strongly, `uncovered` what of it no
-strand of hair hides; `boundary` the way from the painted face to neck, ears and hairline.
+strand of hair hides, `shaved` what of it is no beard; `boundary` the way from the painted face to neck, ears and
+hairline.
 """

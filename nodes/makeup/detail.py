@@ -104,7 +104,7 @@ def _broad(values: FloatArray, lips: Mask, sigma: float) -> FloatArray:
         within, inside = inner[..., :3], inner[..., 3:]
         outside = np.maximum(1 - inside, _LEAST_WEIGHT)
         beyond = (broad[around] - within) / outside
-        within = within / np.maximum(inside, _LEAST_WEIGHT)
+        within /= np.maximum(inside, _LEAST_WEIGHT)
         broad[around] = beyond + weight[..., None] * (within - beyond)
     return broad
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from graphface import GraphfaceWarning, load
 from graphface.nodes import regions
+from graphface.nodes.makeup.features import features
 from graphface.nodes.transfer import Region, detail, mask, paint, recoloured
 from graphface.nodes.types import DetailMap, Image, Landmarks
 from graphface.nodes.warp.mesh import mesh as correspond
@@ -119,6 +120,20 @@ class TestDetail:
         own, other = (DetailMap(np.full((200, 200, 3), v, np.float32)) for v in (0.0, 0.3))
         got = detail(own, other, np.ones((200, 200), np.float32), landmarks, broadest=0.2)
         np.testing.assert_allclose(got.offset, 0, atol=1e-3)
+
+    def test_lips_stay_as_dark_as_they_are(self, face):
+        """A neutral lipstick darkens all of the lips, which is no relief; the lines in them are."""
+        landmarks = face[2]
+        parts = features(Image(np.zeros((200, 200, 3), np.float32)), landmarks)
+        lines = (np.arange(200) % 4 < 2).astype(np.float32)[None, :, None] * 0.1
+        own, dark = np.zeros((200, 200, 3), np.float32), -0.3 * np.dstack([parts.lips] * 3)
+        full, sure = np.ones((200, 200), np.float32), parts.lips > 0.9
+        told, untold = (
+            detail(DetailMap(own), DetailMap(dark + lines), full, landmarks, found).offset for found in (parts, None)
+        )
+        assert abs(told[sure].mean()) < 0.1
+        assert untold[sure].mean() < -0.2
+        assert told[sure].std() > 0.04
 
     def test_what_is_too_fine_stays(self, face, rng):
         """Below the finest scale, noise of the reference is not taken."""
