@@ -133,9 +133,9 @@ def boundary(
     def small(values: FloatArray) -> FloatArray:
         return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
 
-    weight = small(core)
+    weight, before = small(core), small(photo.pixels)
     change = np.log(np.maximum(small(painted.pixels), 0) + np.float32(_FLOOR))
-    change -= np.log(np.maximum(small(photo.pixels), 0) + np.float32(_FLOOR))
+    change -= np.log(np.maximum(before, 0) + np.float32(_FLOOR))
     known = weight >= min(0.5, float(weight.max()))
     bare = known & (small(features.any_of("eyes", "mouth", "lips", "lids", "brows")) < 0.1)
     bare = bare if bare.any() else known
@@ -144,21 +144,21 @@ def boundary(
     change[known & ~bare] = around[known & ~bare]  # lips and brows have no place in the ring
     continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
     factor = np.asarray(cv2.resize(np.exp(continued), core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
-    smooth = cv2.GaussianBlur(small(photo.pixels), (0, 0), max(0.03 * unit, 0.5), borderType=cv2.BORDER_REPLICATE)
+    smooth = cv2.GaussianBlur(before, (0, 0), max(0.03 * unit, 0.5), borderType=cv2.BORDER_REPLICATE)
     broad = np.asarray(cv2.resize(smooth, core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
     # What shines more than skin does is no skin colour: it moves with the skin, and is not multiplied.
-    matte = np.quantile(small(photo.pixels)[bare], 0.8, axis=0).astype(np.float32)
+    matte = np.quantile(before[bare], 0.8, axis=0).astype(np.float32)
     opening = np.maximum(features.eyes, features.mouth)
     pixels = np.empty_like(photo.pixels)
 
     def strip(rows: slice) -> None:
-        before, more = photo.pixels[rows], factor[rows] - 1
+        own, more = photo.pixels[rows], factor[rows] - 1
         if opening[rows].any():  # teeth and eyes are no skin, whatever its tone
             more *= in_three_channels(1 - opening[rows])
         # Where it gets darker everything in the pixel does; where it gets brighter, pores and grain stay what they are.
-        off = broad[rows] - before
-        skin = before + off * np.clip(2 - np.abs(off) * (1 / _TEXTURE), 0, 1) * (more > 0)
-        beyond = before + _limited((np.minimum(skin, matte) + np.float32(_FLOOR)) * more, before)
+        off = broad[rows] - own
+        skin = own + off * np.clip(2 - np.abs(off) * (1 / _TEXTURE), 0, 1) * (more > 0)
+        beyond = own + _limited((np.minimum(skin, matte) + np.float32(_FLOOR)) * more, own)
         pixels[rows] = beyond + in_three_channels(core[rows]) * (painted.pixels[rows] - beyond)
 
     by_strips(strip, pixels.shape)
@@ -167,8 +167,15 @@ def boundary(
 
 def _limited(change: FloatArray, pixels: FloatArray) -> FloatArray:
     """The change, bent to stay within the room that each value has left; small changes pass as they are."""
-    room = np.maximum(np.where(change > 0, 1 - pixels, pixels), np.float32(1e-4))
-    return np.asarray(change / np.sqrt(np.sqrt(1 + np.square(np.square(change / room)))), np.float32)
+    room = np.where(change > 0, 1 - pixels, pixels)
+    np.maximum(room, np.float32(1e-4), out=room)
+    used = np.divide(change, room, out=room)
+    np.square(used, out=used)
+    np.square(used, out=used)
+    used += 1
+    np.sqrt(used, out=used)
+    np.sqrt(used, out=used)
+    return np.asarray(np.divide(change, used, out=used), np.float32)
 
 
 def _averaged(change: FloatArray, bare: NDArray[np.bool_], reach: float) -> FloatArray:

@@ -16,7 +16,9 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.blur import blurred
+from graphface.nodes.detail.rendering import in_three_channels
 from graphface.nodes.makeup.features import Features
+from graphface.nodes.strips import by_strips
 from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
 
 _LEAST_WEIGHT = np.float32(1e-3)
@@ -88,9 +90,14 @@ def _blended(own: FloatArray, other: FloatArray, keep: Mask, opening: Mask, lips
     blended = other.copy()
     difference = own[window] - other[window]
     broad = _broad(difference, lips[window], sigma)
-    open_part = opening[window][..., None]
-    share = keep[window][..., None] * (1 - open_part)
-    blended[window] += share * (difference - broad) + open_part * difference
+    kept, openings, into = keep[window], opening[window], blended[window]
+
+    def strip(rows: slice) -> None:
+        share = kept[rows] * (1 - openings[rows])
+        fully = in_three_channels(share + openings[rows])
+        into[rows] += fully * difference[rows] - in_three_channels(share) * broad[rows]
+
+    by_strips(strip, difference.shape)
     return blended
 
 
