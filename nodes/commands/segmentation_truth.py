@@ -21,6 +21,7 @@ from graphface.nodes.masks.classify import classify
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
+from graphface.nodes.masks.likeness import Model
 from graphface.nodes.masks.network import network
 from graphface.nodes.matting.closed_form import closed_form
 from graphface.nodes.matting.guided import guided
@@ -79,11 +80,16 @@ def segment_truth(
             yield compared(head.name, name, matting, photo, landmarks, labels, truth, labels_ms)
 
 
-def segment_photo(photo: Image, landmarks: Landmarks) -> Segmentation:
+def segment_photo(photo: Image, landmarks: Landmarks, model: Model = "parzen") -> Segmentation:
     """The stage up to the classifiers, as in graphs/segment.yaml."""
     masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
     features = pixel_features(photo, landmarks)
-    return classify(features, masks, hair(features, masks, landmarks), landmarks, photo)
+    return classify(features, masks, hair(features, masks, landmarks, model=model), landmarks, photo, model=model)
+
+
+def segment_by_mixtures(photo: Image, landmarks: Landmarks) -> Segmentation:
+    """Labels before matting, as in the variant `mixtures` of graphs/segment.yaml."""
+    return segment_photo(photo, landmarks, "mixture")
 
 
 def segment_by_network(photo: Image, landmarks: Landmarks) -> Segmentation:
@@ -91,7 +97,11 @@ def segment_by_network(photo: Image, landmarks: Landmarks) -> Segmentation:
     return network(photo, landmarks, geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo)))
 
 
-LABELLERS: dict[str, Labeller] = {"classify": segment_photo, "network": segment_by_network}
+LABELLERS: dict[str, Labeller] = {
+    "classify": segment_photo,
+    "mixtures": segment_by_mixtures,
+    "network": segment_by_network,
+}
 
 
 def true_labels(path: Path) -> FloatArray:

@@ -3,7 +3,7 @@
 - `head`: where cranium, ears and neck lie, told from the points of the face;
 - `geometric`: three masks from the projected geometry; `face` is the cheap soft mask that needs no more than that;
 - `window`, `features`, `texture`: colour and MR8 responses around the face, at working size;
-- `mixture`: the Gaussian mixtures that are fitted to every photo anew;
+- `parzen`, `mixture`: densities and Gaussian mixtures, learnt on every photo anew; `likeness`: the swap between them;
 - `bare`: skin that goes on from the forehead, above the mesh;
 - `hair`: the detector, from the top of this very head;
 - `prior`, `smoothing`, `classify`: labels for every pixel;

@@ -1,9 +1,9 @@
 """Labels for every pixel (paper, section 2): seeds from geometry and hair, small classifiers for the rest.
 
 Seeds: the conservative mask is face, what is outside of the aggressive mask and no hair is background, hair found
-within the normal mask is hair. From the seeds Gaussian mixtures of this photo's skin, hair, backdrop and clothes are
-fitted; each pixel's class follows from them, from where it is, and from its neighbours; then the mixtures are fitted
-again to what was found.
+within the normal mask is hair. From the seeds this photo's skin, hair, backdrop and clothes are learnt; each pixel's
+class follows from how like them it looks, from where it is, and from its neighbours; then they are learnt again from
+what was found.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from graphface import node, warn
+from graphface import node
 from graphface.nodes.masks.bare import bare_skin
 from graphface.nodes.masks.features import PixelFeatures
-from graphface.nodes.masks.hair import Hair, sampled, skin_mixture
+from graphface.nodes.masks.hair import SKIN_ROOM, Hair, skin_weights
 from graphface.nodes.masks.head import CHIN, EYE_LINE
-from graphface.nodes.masks.mixture import Mixture, fit_mixture
+from graphface.nodes.masks.likeness import Likeness, Model, likeness_of
 from graphface.nodes.masks.prior import BACKDROP, CLOTHES, FACE, HAIR, Layout, layout_of, log_prior
 from graphface.nodes.masks.smoothing import Smoothing, smoothed
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
@@ -27,16 +27,14 @@ from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segme
 Scores = FloatArray
 """h x w x 4, in the order FACE, HAIR, BACKDROP, CLOTHES."""
 
-STEPS = 12
-"""Of expectation maximization: a mixture stopped half-way moves more with the noise of the photo."""
-
 OPENNESS = 0.02
 """Share of any class that may look like anything."""
 
-UNKNOWN = -1.0
-"""Score of a class of which there is no sample, beside a broad Gaussian of the whole window."""
+DOUBT = 0.25
+"""Pixels of anything beside those that teach a class, in squared inter-ocular distances: a class of next to no sample
+is told by its place. Half as much lets the few pixels of backdrop in a tight crop jump."""
 
-DOUBT = (0.15, 0.25)
+TEACHING = (0.15, 0.25)
 """Belief in a class up to which a pixel does not teach it, and from which it teaches in proportion. A pixel that
 crosses the first comes in with no weight, so that no noise can move it in or out at a stroke. Wider slopes, which count
 only the excess, measure a little better on path-traced heads and lose half of the long hair of several portraits."""
@@ -69,9 +67,10 @@ def classify(
     landmarks: Landmarks,
     photo: Image,
     *,
+    model: Model = "parzen",
     components: Annotated[int, Field(ge=1, le=16)] = 4,
     prior: Annotated[float, Field(ge=0, le=4)] = 1.0,
-    evidence: Annotated[float, Field(gt=0, le=4)] = 0.6,
+    evidence: Annotated[float, Field(gt=0, le=4)] = 1.0,
     smoothing: Smoothing = "mean_field",
     rounds: Annotated[int, Field(ge=1, le=10)] = 2,
 ) -> Segmentation:
@@ -79,33 +78,36 @@ def classify(
 
     Args:
         features: of the photo. masks, hair: the seeds. photo: guides the smoothing.
-        components: Gaussians in each class.
+        model: "parzen" densities, or the paper's "mixture" of Gaussians (see `masks.likeness`).
+        components: Gaussians in each mixture.
         prior: weight of where things are expected (see `masks.prior`); 0 asks colour and texture alone.
-        evidence: weight of colour and texture. Features of one pixel are not independent, so less than 1.
+        evidence: weight of colour and texture.
         smoothing: "none", "guided" (edge-preserving filter of the probabilities) or "mean_field" (neighbours of like
             colour want the same label).
-        rounds: times that the mixtures are fitted.
+        rounds: times that the classes are learnt.
 
     Returns:
         Soft labels of the photo's size that sum to 1. Outside of the window that was looked at: background.
     """
     window, values = features.window, features.values
     layout = layout_of(landmarks, window)
+    unit = max(landmarks.interocular * window.scale, 1e-3)
     pixels = window.shrunk(photo.pixels)
     sure = window.shrunk(masks.conservative) > 0.5
-    bare = bare_skin(features.values, sure & ~layout.features, layout, landmarks.interocular * window.scale)
+    bare = bare_skin(features.values, sure & ~layout.features, layout, unit)
     skin = (sure & ~layout.features) | (bare > 0.5)
     expected = prior * log_prior(layout)
     expected[..., FACE] += BARE * bare
     expected[..., HAIR] -= BARE * bare
     belief = _seeds(sure, window.shrunk(masks.aggressive), window.shrunk(hair.response), layout)
     expected[..., HAIR] -= NO_HAIR * max(0.0, 1 - 2 * float(belief[..., HAIR].max()))
+    likeness, teachers = likeness_of(values, model, components), skin_weights(values, skin)
     for _ in range(rounds):
-        scores = expected + evidence * _likelihoods(values, belief, skin, components)
+        scores = expected + evidence * _likelihoods(likeness, belief, teachers, DOUBT * unit**2)
         scores[sure] = _certain(FACE)
         belief = smoothed(scores, pixels, method=smoothing)
         belief[sure] = np.eye(4, dtype=np.float32)[FACE]
-    belief = _connected(belief, layout, landmarks.interocular * window.scale)
+    belief = _connected(belief, layout, unit)
     shape = masks.normal.shape
     face, locks = (window.enlarged(belief[..., k], shape, beyond=0) for k in (FACE, HAIR))
     return Segmentation(face, locks, np.maximum(1 - face - locks, 0))
@@ -127,24 +129,17 @@ def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, response: FloatArray
     return belief
 
 
-def _likelihoods(values: FloatArray, belief: FloatArray, skin: NDArray[np.bool_], components: int) -> Scores:
+def _likelihoods(likeness: Likeness, belief: FloatArray, skin: FloatArray, doubt: float) -> Scores:
     """log p(features | class) of every pixel; a class without samples is told by nothing but its place."""
-    flat = values.reshape(-1, values.shape[2])
-    fitted: list[Mixture | None] = [skin_mixture(values, skin, components)]
+    learnt = [likeness.log_density(skin, doubt=doubt, room=SKIN_ROOM)]
     for label in (HAIR, BACKDROP, CLOTHES):
         weights = belief[..., label].reshape(-1)
-        weights = weights * np.clip((weights - DOUBT[0]) / (DOUBT[1] - DOUBT[0]), 0, 1)
-        chosen = sampled(weights > 0)
-        fitted.append(fit_mixture(flat[chosen], weights[chosen], components=components, rounds=STEPS))
+        weights = weights * np.clip((weights - TEACHING[0]) / (TEACHING[1] - TEACHING[0]), 0, 1)
+        learnt.append(likeness.log_density(weights, doubt=doubt))
     # What a class does not know it is a little open to: a broad Gaussian of the whole window bounds every ratio.
-    broad = fit_mixture(flat[sampled(np.ones(len(flat), bool))], components=1, floor=0.1)
-    if broad is None:
-        warn("masks.classify: no pixel has finite features; labels follow from their place alone")
-        return np.zeros((*values.shape[:2], 4), np.float32)
-    anything = broad.log_likelihood(flat) + np.log(OPENNESS)
-    unknown = anything - np.log(OPENNESS) + UNKNOWN
-    scores = [unknown if m is None else np.logaddexp(m.log_likelihood(flat), anything) for m in fitted]
-    return np.stack(scores, axis=1).reshape(*values.shape[:2], 4).astype(np.float32, copy=False)
+    anything = likeness.anything + np.log(OPENNESS)
+    scores = [np.logaddexp(one, anything) for one in learnt]
+    return np.stack(scores, axis=1).reshape(belief.shape).astype(np.float32, copy=False)
 
 
 def _connected(belief: FloatArray, layout: Layout, unit: float) -> FloatArray:

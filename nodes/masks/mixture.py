@@ -87,6 +87,13 @@ def fit_mixture(
     return mixture
 
 
+def widened(mixture: Mixture, room: float) -> Mixture:
+    """The mixture with its first feature spread by a further standard deviation `room`."""
+    covariances = mixture.covariances.copy()
+    covariances[:, 0, 0] += room**2
+    return Mixture(mixture.weights, mixture.means, covariances)
+
+
 def _split(samples: Array, weights: Array, components: int, floor: float) -> Array:
     """A first assignment (n, K) of 0 and 1: every group is cut at its mean, across its widest direction, again and
     again. Nothing is random, and no choice between groups can flip with a little noise."""

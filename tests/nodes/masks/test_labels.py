@@ -9,7 +9,8 @@ from portraits import BACKDROP, HAIR, SKIN, portrait, surface_of
 from graphface.nodes.masks.classify import apart, classify
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
-from graphface.nodes.masks.hair import Samples, detector, hair
+from graphface.nodes.masks.hair import Places, detector, hair, shiny, skin_weights
+from graphface.nodes.masks.likeness import likeness_of
 from graphface.testing import check_node
 
 
@@ -47,10 +48,20 @@ class TestHair:
         photo, landmarks, _ = portrait(hair=color)
         assert (stages(photo, landmarks)[2].mask > 0.5).mean() < 0.002
 
-    def test_nothing_but_backdrop_on_top(self):
-        """Where the backdrop is seen at the top of the mask there is no hair."""
+    def test_backdrop_around_a_small_skull(self):
+        """Backdrop that the head's solids overshoot is no hair."""
+        import cv2
+
+        photo, landmarks, labels = portrait(hair=SKIN)
+        pixels = photo.pixels.copy()
+        shrunk = cv2.erode(np.uint8(labels == 1) | np.uint8(labels == 0), np.ones((3, 3), np.uint8), iterations=5)
+        pixels[(labels == 1) & (shrunk == 0)] = BACKDROP
+        assert (stages(photo.with_pixels(pixels), landmarks)[2].mask > 0.5).mean() < 0.002
+
+    def test_same_colour_all_about(self):
+        """Where the top looks just like what is beside, hair is never sure."""
         photo, landmarks, _ = portrait(hair=BACKDROP)
-        assert stages(photo, landmarks)[2].mask.mean() < 0.01
+        assert stages(photo, landmarks)[2].response.max() < 0.8
 
     def test_node(self):
         """It keeps an operator's promises."""
@@ -59,29 +70,57 @@ class TestHair:
         check_node(hair, seen, masks, landmarks)
 
 
-class TestDetector:
-    def samples(self, rng, *parts):
-        """(colour, number, prior, weight) of each part."""
-        values = [rng.normal(color, 0.02, (count, 3)) for color, count, _, _ in parts]
-        priors, weights = (np.concatenate([np.full(part[1], part[k]) for part in parts]) for k in (2, 3))
-        return Samples(*(np.asarray(a, np.float32) for a in (np.concatenate(values), priors, weights)))
+class TestSkin:
+    def test_what_is_no_skin_teaches_little(self, rng):
+        """A tenth of the samples, dark as a beard, weighs next to nothing."""
+        values = rng.normal(SKIN, 0.02, (20, 10, 3)).astype(np.float32)
+        values[:2] = HAIR
+        weights = skin_weights(values, np.ones((20, 10), bool)).reshape(20, 10)
+        assert weights[:2].max() < 0.05 < 0.5 < weights[2:].mean()
 
-    @pytest.mark.parametrize("weight", [0.1, 0.5])
-    def test_share_does_not_depend_on_scale(self, rng, weight):
-        """A head all of whose top says little has as much hair as one whose top says all."""
-        sides = self.samples(rng, (BACKDROP, 200, -1, 1))
-        top = self.samples(rng, (HAIR, 100, 1, 1), (BACKDROP, 100, 1, 1))
-        settings = {"components": 4, "margin": 3.0, "rounds": 3}
-        whole = detector(top, sides, None, **settings)
-        part = detector(Samples(top.values, top.prior, top.weight * np.float32(weight)), sides, None, **settings)
-        assert whole.share == pytest.approx(0.5, abs=0.1)
-        assert part.share == pytest.approx(whole.share, abs=0.01)
+    def test_shine(self, rng):
+        """What is lighter than the skin shines; the skin itself, darker things and other hues do not."""
+        values = rng.normal((0.6, 0.2, 0.2), 0.01, (20, 10, 3)).astype(np.float32)
+        weights = skin_weights(values, np.ones((20, 10), bool))
+        values[0, :4] = (0.8, 0.2, 0.2), (0.6, 0.2, 0.2), (0.3, 0.2, 0.2), (0.8, -0.4, 0.2)
+        found = shiny(values, weights)[:4]
+        assert found[0] > 0.8
+        assert found[1:].max() < 0.05
+
+    def test_nothing_shines_without_skin(self):
+        """Where no pixel is skin there is nothing to be lighter than."""
+        assert shiny(np.ones((2, 3, 3), np.float32), np.zeros(6, np.float32)).max() == 0
+
+
+class TestDetector:
+    def learnt(self, rng, *parts, model="parzen", odds=0.0):
+        """The detector on a row of (colour, number, top, beside) without skin."""
+        values = np.concatenate([rng.normal(color, 0.02, (count, 3)) for color, count, _, _ in parts]).astype(
+            np.float32
+        )
+        top, beside = (np.concatenate([np.full(p[1], p[k], np.float32) for p in parts]) for k in (2, 3))
+        places = Places(top, beside, np.ones(len(top), np.float32), np.full(len(top), odds, np.float32))
+        no_skin = np.full(len(top), -1e3, np.float32)
+        likeness = likeness_of(values[None], model, 4)
+        return detector(likeness, places, no_skin, margin=2.0, rounds=3, doubt=10.0)
+
+    @pytest.mark.parametrize("model", ["parzen", "mixture"])
+    @pytest.mark.parametrize("weight", [0.5, 1.0])
+    def test_share(self, rng, model, weight):
+        """Half of the top is hair, however much a pixel says."""
+        parts = (BACKDROP, 400, 0, 1), (HAIR, 200, weight, 0), (BACKDROP, 200, weight, 0)
+        assert self.learnt(rng, *parts, model=model).share == pytest.approx(0.5, abs=0.1)
 
     def test_rim_counts_little(self, rng):
         """Backdrop at the rim of the head lowers the share of hair by its weight, not by its number."""
-        sides = self.samples(rng, (BACKDROP, 200, -1, 1))
-        top = self.samples(rng, (HAIR, 100, 1, 1), (BACKDROP, 100, 1, 0.05))
-        assert detector(top, sides, None, components=4, margin=3.0, rounds=3).share > 0.9
+        parts = (BACKDROP, 400, 0, 1), (HAIR, 200, 1, 0), (BACKDROP, 200, 0.05, 0)
+        assert self.learnt(rng, *parts).share > 0.9
+
+    def test_place_decides_between_likes(self, rng):
+        """One colour on top and beside is hair where place says so, and backdrop where it does not."""
+        parts = (HAIR, 200, 1, 0), (HAIR, 400, 0, 1)
+        assert self.learnt(rng, *parts, odds=5.0).share > 0.5
+        assert self.learnt(rng, *parts, odds=0.0).share < 0.3
 
 
 class TestApart:
@@ -129,6 +168,14 @@ class TestClassify:
         photo, landmarks, labels = portrait()
         found = likeliest(classify(*stages(photo, landmarks, **settings), landmarks, photo))
         assert overlap(found == 1, labels == 1) > 0.75
+
+    def test_model_swap(self):
+        """Mixtures of Gaussians do the job as densities do."""
+        photo, landmarks, labels = portrait()
+        seen, masks, _ = stages(photo, landmarks)
+        found = hair(seen, masks, landmarks, model="mixture")
+        shown = likeliest(classify(seen, masks, found, landmarks, photo, model="mixture"))
+        assert overlap(shown == 1, labels == 1) > 0.8
 
     def test_partition(self):
         """Labels lie in [0, 1] and sum to 1."""

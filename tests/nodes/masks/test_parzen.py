@@ -1,0 +1,85 @@
+"""Parzen densities of a photo's pixels."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from graphface.nodes.masks.parzen import Palette
+
+DARK, LIGHT = (0.2, 0.05, 0.05), (0.8, -0.1, 0.1)
+
+
+def two_colors():
+    """Twenty pixels of a dark colour, then twenty of a light one."""
+    return np.repeat(np.float32([DARK, LIGHT]), 20, axis=0).reshape(4, 10, 3)
+
+
+class TestPalette:
+    def test_likely_where_taught(self):
+        """A label that was taught dark pixels finds them likely and light ones not."""
+        found = Palette(two_colors()).log_density(np.repeat(np.float32([1, 0]), 20), doubt=1.0)
+        assert found[:20].min() > found[20:].max() + 2
+
+    def test_scale_of_weights(self):
+        """Without doubt only proportions of weights matter."""
+        palette, weights = Palette(two_colors()), np.linspace(0.1, 1, 40, dtype=np.float32)
+        np.testing.assert_allclose(palette.log_density(weights), palette.log_density(3 * weights), atol=1e-2)
+
+    def test_untaught_is_anything(self):
+        """A label without teachers has the density of the whole photo."""
+        palette = Palette(two_colors())
+        np.testing.assert_allclose(palette.log_density(np.zeros(40, np.float32)), palette.anything, atol=1e-4)
+
+    def test_doubt_fades_in(self):
+        """The fewer the teachers, the nearer the label comes to anything."""
+        palette, weights = Palette(two_colors()), np.repeat(np.float32([1, 0]), 20)
+        away = [np.abs(palette.log_density(w * weights, doubt=1.0) - palette.anything).max() for w in (1, 0.1, 0.01)]
+        assert away[0] > away[1] > away[2]
+
+    def test_room_is_for_lightness(self):
+        """Spread lightness makes a lighter shade likelier, and another hue not."""
+        values = np.float32([[(0.5, 0.2, 0.2)] * 8 + [(0.7, 0.2, 0.2), (0.5, 0.4, 0.2)]])
+        weights = np.float32([1] * 8 + [0, 0])
+        tight, roomy = (Palette(values).log_density(weights, doubt=0.1, room=room) for room in (0.0, 0.1))
+        assert roomy[8] > tight[8] + 0.5
+        assert roomy[9] <= tight[9] + 0.1
+
+    def test_texture_counts(self):
+        """Pixels of one colour are told apart by how rough they are."""
+        values = np.zeros((1, 40, 11), np.float32)
+        values[0, 20:, 3:7] = (0.04, 0.04, 0.02, 0.02)
+        found = Palette(values).log_density(np.repeat(np.float32([1, 0]), 20), doubt=1.0)
+        assert found[:20].min() > found[20:].max() + 2
+
+    @given(
+        arrays(
+            np.float32,
+            st.tuples(st.integers(1, 5), st.integers(1, 5), st.sampled_from([3, 11])),
+            elements=st.sampled_from([0.0, 0.5, 1.0, -2.0, np.nan]),
+        ),
+        st.floats(0, 10),
+    )
+    def test_always_finite(self, values, doubt):
+        """Flat, extreme and broken features have finite log-likelihoods, taught or not."""
+        palette = Palette(values)
+        count = values.shape[0] * values.shape[1]
+        for weights in (np.zeros(count, np.float32), np.ones(count, np.float32), np.eye(count, dtype=np.float32)[0]):
+            assert np.isfinite(palette.log_density(weights, doubt=doubt)).all()
+
+    @given(st.integers(0, 2**32 - 1))
+    def test_noise_moves_in_proportion(self, seed):
+        """One answer: a tenth of the noise moves the likelihoods by about a tenth, wherever the pixels lie."""
+        rng = np.random.default_rng(seed)
+        values = rng.uniform(0.2, 0.8, (12, 12, 3)).astype(np.float32)
+        weights = rng.uniform(0, 1, 144).astype(np.float32)
+        noise = rng.uniform(-1, 1, values.shape).astype(np.float32)
+        before = Palette(values).log_density(weights, doubt=5.0)
+        moved = [
+            np.abs(Palette(values + s * noise).log_density(weights, doubt=5.0) - before).mean() for s in (1e-2, 1e-3)
+        ]
+        assert moved[0] < 0.2
+        assert moved[1] == pytest.approx(moved[0] / 10, rel=0.3)
