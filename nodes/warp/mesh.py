@@ -23,7 +23,7 @@ _UNSEEN = 0.05
 _STANDS_IN = 0.7
 """How far the reference must show a point for its mirror image not to be asked."""
 
-_FADE = 0.05
+_FADE = 0.04
 """Width of the way from a point to its mirror image, inter-ocular distances, on the side where the point is shown: on
 the other side the reference may be anything."""
 
@@ -87,10 +87,11 @@ def mesh(
 
 
 def _spread(needed: Mask, width: float) -> Mask:
-    """Grown, and fading out from where it ended; strips too thin to be worth it are left out."""
+    """Grown, and fading out from where it ended."""
     if not needed.any():
         return needed
-    return np.asarray(np.clip(4 * blurred(needed, max(width, 0.5)) - 1, 0, 1), np.float32)
+    wider: Mask = np.maximum(needed, np.clip(2 * blurred(needed, max(width, 0.5)), 0, 1))
+    return wider
 
 
 def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.float64]:
