@@ -51,8 +51,7 @@ SKIN_ROOM = 0.05
 """Standard deviation by which the skin's lightness is spread: a forehead shines, a neck lies in shadow."""
 
 FADED = 1 / 6
-"""Part of the least share of hair at which the response has faded to 0. From half of it the fall is steep, and the
-little hair of a few tight crops jumps."""
+"""Part of the least share of hair at which the response has faded to 0, by a long slope."""
 
 LEAST_SPREAD = 0.02
 """Of the skin's hue, in feature units: that of a flat colour."""
