@@ -85,9 +85,11 @@ def shaved(
     counts = (1 - np.clip(2 * smooth(parts, strand), 0, 1)) * small(skin)  # contours are no strands
     deviation = np.sqrt(smooth(fine * fine * counts, around) / np.maximum(smooth(counts, around), _LEAST_WEIGHT))
     hair = np.asarray(np.clip((deviation / np.float32(contrast) - 1) * 2, 0, 1) * (1 - parts), np.float32)
-    if max(_share(hair, patch(where) * counts) for where in (MOUSTACHE, CHIN)) < cover:
+    lip, chin = (_share(hair, patch(where) * counts) >= cover for where in (MOUSTACHE, CHIN))
+    if not (lip or chin):
         return skin
-    hair *= np.clip(2 * smooth(patch(BEARD), 2 * around), 0, 1)
+    # Beside a moustache alone, the folds of a smile are no beard.
+    hair *= np.clip(2 * smooth(patch(BEARD if chin else MOUSTACHE), 2 * around), 0, 1)
     without = skin.copy()
     shape = (columns.stop - columns.start, rows.stop - rows.start)
     without[window] *= 1 - np.asarray(cv2.resize(hair, shape, interpolation=cv2.INTER_LINEAR), np.float32)

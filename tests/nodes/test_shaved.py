@@ -41,6 +41,16 @@ class TestShaved:
         assert left[chin].max() < 0.1
         assert left[: int(landmarks.points[2, 1]) - 20].min() == 1
 
+    def test_beside_a_moustache_alone_the_chin_stays(self, portrait, rng):
+        """Strands on the upper lip are taken away, and nothing below the mouth."""
+        shading, parts, landmarks = portrait
+        skin, bearded = np.ones_like(shading), shading.copy()
+        nose, mouth = (int(landmarks.points[k, 1]) for k in (2, 13))
+        bearded[nose:mouth] = strands(rng)[nose:mouth]
+        left = shaved(skin, bearded, parts, landmarks)
+        assert left[nose:mouth].min() < 0.1
+        assert left[chin_of(landmarks)].min() > 0.9
+
     def test_smooth_skin_stays(self, portrait):
         """Without strands the very mask comes back."""
         shading, parts, landmarks = portrait
