@@ -77,9 +77,7 @@ def run_over(
 
 
 def read_map(text: str) -> tuple[str, list[str]]:
-    """A "NAME=WHERE" flag: the files of a folder, or those that a pattern like photos/*.png matches, by name.
-
-    Files whose names begin with a dot are left out.
+    """A "NAME=WHERE" flag: an input and the files of `files_at`.
 
     Raises:
         UsageError: the text is not of that form. UnreadableFile: there is no such folder, or no file in it.
@@ -88,24 +86,29 @@ def read_map(text: str) -> tuple[str, list[str]]:
     if not (name and equals and where):
         raise UsageError(f"--map {text!r}: expected NAME=FOLDER or NAME=PATTERN")
     try:
+        return name, files_at(where)
+    except UnreadableFile as error:
+        raise UnreadableFile(where, f"{error.reason} (--map {name})") from None
+
+
+def files_at(where: str) -> list[str]:
+    """The files of a folder, or those that a pattern like photos/*.png matches, by name.
+
+    Files whose names begin with a dot are left out.
+
+    Raises:
+        UnreadableFile: there is no such folder, or no file in it.
+    """
+    try:
         candidates = _matching(Path(where))
         if candidates is None:
-            raise UnreadableFile(where, f"is neither a folder nor a pattern in one (--map {name})")
+            raise UnreadableFile(where, "is neither a folder nor a pattern in one")
         files = sorted(str(f) for f in candidates if f.is_file() and not f.name.startswith("."))
     except OSError as error:  # a folder that may not be looked into
-        raise UnreadableFile(where, f"{error.strerror or error} (--map {name})") from None
+        raise UnreadableFile(where, error.strerror or str(error)) from None
     if not files:
-        raise UnreadableFile(where, f"holds no file (--map {name})")
-    return name, files
-
-
-def _matching(where: Path) -> Iterator[Path] | None:
-    """What a folder holds or a pattern matches; None where it is neither."""
-    if where.is_dir():
-        return where.iterdir()
-    if any(c in where.name for c in "*?[") and where.parent.is_dir():
-        return where.parent.glob(where.name)
-    return None
+        raise UnreadableFile(where, "holds no file")
+    return files
 
 
 def read_maps(texts: Sequence[str]) -> dict[str, list[str]]:

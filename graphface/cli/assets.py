@@ -54,9 +54,9 @@ def _assets() -> list[Asset]:
 
 
 def _named(name: str) -> Asset:
-    from graphface.errors import UnknownName
+    from graphface.errors import UsageError
 
     known = {asset.name: asset for asset in _assets()}
     if name not in known:
-        raise UnknownName(name, known)
+        raise UsageError(f"there is no asset {name!r} (there are {', '.join(known)})")
     return known[name]

@@ -238,12 +238,12 @@ def matting(
     tolerance: Annotated[float, typer.Option(help="Relative residual at which the solve in the band stops.")] = 3e-3,
 ) -> None:
     """Closed-form matting in the band against PyMatting's for the whole picture: CPU seconds, and the alphas apart."""
-    from graphface.mapping import read_map
+    from graphface.mapping import files_at
     from graphface.nodes.commands.matting_speed import matting_speed
     from graphface.terminal import print_table
 
     files = [
-        Path(f) for where in photos for f in ([where] if Path(where).is_file() else read_map(f"photos={where}")[1])
+        Path(f) for where in photos for f in ([where] if Path(where).is_file() else files_at(where))
     ]
     found = list(matting_speed(files, trust=trust, tolerance=tolerance))
     rows = [
@@ -260,9 +260,9 @@ def matting(
 
 
 def _files(pattern: str) -> list[Path]:
-    from graphface.mapping import read_map
+    from graphface.mapping import files_at
 
-    return [Path(file) for file in read_map(f"photos={pattern}")[1]]
+    return [Path(file) for file in files_at(pattern)]
 
 
 def _print_agreement(photos: str, label: Labeller) -> None:
@@ -372,13 +372,13 @@ def transfer(
     graph: Annotated[str, typer.Option(help="What --table draws: makeup or transfer.")] = "makeup",
 ) -> None:
     """Faithfulness, realism and predictability of makeup on pairs of photographs; with --table, their picture."""
-    from graphface.mapping import read_map
+    from graphface.mapping import files_at
     from graphface.nodes.commands.transfer_criteria import Criteria, criteria
     from graphface.nodes.commands.transfer_table import transfer_table
     from graphface.nodes.image import write_picture
     from graphface.terminal import print_table
 
-    inputs, others = ([Path(f) for f in read_map(f"photos={where}")[1]] for where in (photos, references))
+    inputs, others = ([Path(f) for f in files_at(where)] for where in (photos, references))
     if table is not None:
         write_picture(transfer_table(inputs, others, graph=graph), table)
     rows: list[tuple[str, ...]] = []

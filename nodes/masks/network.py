@@ -93,7 +93,7 @@ def class_chances(pixels: FloatArray, mirrored: bool, certainty: float = 1.0) ->
     seen = np.asarray(cv2.resize(np.ascontiguousarray(pixels), (SIDE, SIDE), interpolation=method), np.float32)
     logits = _logits(seen)
     if mirrored:
-        logits = (logits + _logits(seen[:, ::-1])[:, ::-1]) / 2
+        logits = np.float32(0.5) * (logits + _logits(seen[:, ::-1])[:, ::-1])
     raised = np.exp(certainty * (logits - logits.max(axis=2, keepdims=True)))
     return np.asarray(raised / raised.sum(axis=2, keepdims=True), np.float32)
 

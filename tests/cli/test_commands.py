@@ -141,7 +141,7 @@ class TestAssets:
         """An unknown asset is a wrong request."""
         said = graphface("assets", "path", "none")
         assert said.code == 2
-        assert "none" in said.err
+        assert "there is no asset 'none' (there are " in said.err
 
 
 class TestEveryCommand:
