@@ -124,3 +124,12 @@ def read_maps(texts: Sequence[str]) -> dict[str, list[str]]:
             raise UsageError(f"--map {text!r}: input {name!r} is mapped twice")
         maps[name] = files
     return maps
+
+
+def _matching(where: Path) -> Iterator[Path] | None:
+    """What a folder holds or a pattern matches; None where it is neither."""
+    if where.is_dir():
+        return where.iterdir()
+    if any(c in where.name for c in "*?[") and where.parent.is_dir():
+        return where.parent.glob(where.name)
+    return None

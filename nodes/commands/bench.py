@@ -242,9 +242,7 @@ def matting(
     from graphface.nodes.commands.matting_speed import matting_speed
     from graphface.terminal import print_table
 
-    files = [
-        Path(f) for where in photos for f in ([where] if Path(where).is_file() else files_at(where))
-    ]
+    files = [Path(f) for where in photos for f in ([where] if Path(where).is_file() else files_at(where))]
     found = list(matting_speed(files, trust=trust, tolerance=tolerance))
     rows = [
         (
