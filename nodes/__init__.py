@@ -8,7 +8,7 @@ from graphface import Pack
 _TYPES = "graphface.nodes.types"
 _INTRINSIC = ("intensity", "retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 _MASKS = "graphface.nodes.masks"
-_LABELS = ("face", "geometric", "features", "hair", "classify", "network", "override")
+_LABELS = ("face", "geometric", "features", "cue", "hair", "classify", "network", "override")
 _RENDER = ("samples", "shade", "shadows", "spread", "head", "skin", "specular", "composite", "relit")
 _DETAIL = "graphface.nodes.detail"
 

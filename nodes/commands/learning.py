@@ -30,7 +30,7 @@ def learn_from_photos(
     Raises:
         UnreadableFile: a folder without a photo that has a face; a card that is not JSON.
     """
-    said = _words(words)
+    said = words_of(words)
     _, faces = points_in(folder)
     names, of_people = points_in(people) if people is not None else ([], np.zeros((0, 468, 3)))
     persons = [file.rsplit("_", 1)[0] for file in names]
@@ -71,7 +71,12 @@ def _progress(folder: Path) -> Iterator[Path]:
     yield from track(photos, description=folder.name, disable=not sys.stderr.isatty())
 
 
-def _words(path: Path | None) -> dict[str, Any]:
+def words_of(path: Path | None) -> dict[str, Any]:
+    """The JSON card at `path`; none: no words.
+
+    Raises:
+        UnreadableFile: it is not one JSON object.
+    """
     if path is None:
         return {}
     try:

@@ -10,7 +10,10 @@ import typer
 if TYPE_CHECKING:
     from graphface.nodes.morphable.model import MorphableModel
 
-app = typer.Typer(help="List, import, describe, learn or correct 3-D face models.", no_args_is_help=True)
+app = typer.Typer(
+    help="List, import, describe, learn or correct 3-D face models; learn the network that labels.",
+    no_args_is_help=True,
+)
 
 
 @app.callback()
@@ -111,6 +114,32 @@ def relief(
     better, off = relief_of_heads(load_model(model, refine=False), data)
     save_model(better, out, half=True)
     print(f"{out}: normals off by " + ", ".join(f"{degrees:.2f} degrees {when}" for when, degrees in off.items()))
+
+
+@app.command()
+def labels(
+    photos: Annotated[Path, typer.Argument(help="Varied photographs of faces; MediaPipe's network labels them.")],
+    portraits: Annotated[Path | None, typer.Option(help="Photographs that are much alike.")] = None,
+    people: Annotated[
+        Path | None, typer.Option(help="Photographs, several of each person: PERSON_anything.jpg.")
+    ] = None,
+    data: Annotated[Path | None, typer.Option(help="Folder of ground truth; it holds truth/.")] = None,
+    out: Annotated[Path, typer.Option(help="File to write.")] = Path("labels.safetensors"),
+    steps: Annotated[int | None, typer.Option(min=1, help="Steps of eight pictures; as shipped by default.")] = None,
+    card: Annotated[Path | None, typer.Option(help="JSON with further words for the card.")] = None,
+) -> None:
+    """Learn the small network of masks.cue; needs PyTorch and graphface[network]. The shipped one was made so."""
+    from dataclasses import replace
+
+    from graphface.nodes.commands.label_learning import Course, learn_labels
+    from graphface.nodes.commands.learning import words_of
+    from graphface.nodes.masks.label_weights import write_weights
+
+    said = words_of(card)
+    course = Course() if steps is None else replace(Course(), steps=steps)
+    weights, made = learn_labels(photos, portraits, people, data, course)
+    write_weights(weights, {**said, **made}, out)
+    print(f"{out}: from {made['variations']} variations of {made['photographs']} photographs and of truth")
 
 
 def _loaded(model: str) -> MorphableModel:

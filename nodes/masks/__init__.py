@@ -6,7 +6,9 @@
 - `parzen`, `mixture`: densities and Gaussian mixtures, learnt on every photo anew; `likeness`: the swap between them;
 - `bare`: skin that goes on from the forehead, above the mesh;
 - `hair`: the detector, from the top of this very head;
-- `prior`, `smoothing`, `classify`: labels for every pixel;
+- `cue`: what a small network guesses (`label_network`, its weights in `label_weights`) of the upright head (`upright`,
+  `shown`), in place of the detector and of the hand-set `prior`; `network`: the large one that taught it;
+- `start`, `smoothing`, `classify`: labels for every pixel;
 - `override`: what the user gives instead.
 
 The soft edge is `graphface.nodes.matting`; the whole is `graphs/segment.yaml`.

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.masks.bare import bare_skin
 from graphface.nodes.masks.features import PixelFeatures
-from graphface.nodes.masks.hair import SKIN_ROOM, Hair, skin_weights
+from graphface.nodes.masks.hair import SKIN_ROOM, Hair
 from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.masks.likeness import Likeness, Model, likeness_of
-from graphface.nodes.masks.prior import BACKDROP, CLOTHES, FACE, HAIR, Layout, layout_of, log_prior
+from graphface.nodes.masks.prior import BACKDROP, CLOTHES, FACE, HAIR, Layout, layout_of
 from graphface.nodes.masks.smoothing import Smoothing, smoothed
+from graphface.nodes.masks.start import start_from_cue, start_from_place
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
 
 Scores = FloatArray
@@ -52,12 +52,6 @@ outside of it. Locks fall beside the neck; what hangs on the head only by way of
 WAYS = 400
 """Longest way that is looked for, working pixels."""
 
-BARE = 6.0
-"""Added to the score of face, and taken off the score of hair, where the forehead surely goes on."""
-
-NO_HAIR = 6.0
-"""Taken off the score of hair everywhere where the detector found none; half of it where no pixel is surer than 1/4."""
-
 
 @node("masks.classify")
 def classify(
@@ -66,6 +60,7 @@ def classify(
     hair: Hair,
     landmarks: Landmarks,
     photo: Image,
+    cue: Segmentation | None = None,
     *,
     model: Model = "parzen",
     components: Annotated[int, Field(ge=1, le=16)] = 4,
@@ -78,9 +73,10 @@ def classify(
 
     Args:
         features: of the photo. masks, hair: the seeds. photo: guides the smoothing.
+        cue: where the labels are, roughly (see `masks.cue`); None: where they tend to be (see `masks.prior`).
         model: "parzen" densities, or the paper's "mixture" of Gaussians (see `masks.likeness`).
         components: Gaussians in each mixture.
-        prior: weight of where things are expected (see `masks.prior`); 0 asks colour and texture alone.
+        prior: weight of where things are expected; 0 asks colour and texture alone.
         evidence: weight of colour and texture.
         smoothing: "none", "guided" (edge-preserving filter of the probabilities) or "mean_field" (neighbours of like
             colour want the same label).
@@ -94,16 +90,15 @@ def classify(
     unit = max(landmarks.interocular * window.scale, 1e-3)
     pixels = window.shrunk(photo.pixels)
     sure = window.shrunk(masks.conservative) > 0.5
-    bare = bare_skin(features.values, sure & ~layout.features, layout, unit)
-    skin = (sure & ~layout.features) | (bare > 0.5)
-    expected = prior * log_prior(layout)
-    expected[..., FACE] += BARE * bare
-    expected[..., HAIR] -= BARE * bare
-    belief = _seeds(sure, window.shrunk(masks.aggressive), window.shrunk(hair.response), layout)
-    expected[..., HAIR] -= NO_HAIR * max(0.0, 1 - 2 * float(belief[..., HAIR].max()))
-    likeness, teachers = likeness_of(values, model, components), skin_weights(values, skin)
+    response = window.shrunk(hair.response)
+    if cue is None:
+        start = start_from_place(values, layout, sure, window.shrunk(masks.aggressive), response, unit, prior)
+    else:
+        chances = window.shrunk(np.dstack([cue.face, cue.hair, cue.background]))
+        start = start_from_cue(chances, layout, sure, response, prior)
+    belief, likeness = start.belief, likeness_of(values, model, components)
     for _ in range(rounds):
-        scores = expected + evidence * _likelihoods(likeness, belief, teachers, DOUBT * unit**2)
+        scores = start.expected + evidence * _likelihoods(likeness, belief, start.skin, DOUBT * unit**2)
         scores[sure] = _certain(FACE)
         belief = smoothed(scores, pixels, method=smoothing)
         belief[sure] = np.eye(4, dtype=np.float32)[FACE]
@@ -117,22 +112,17 @@ def _certain(label: int) -> FloatArray:
     return np.where(np.arange(4) == label, 0, -60).astype(np.float32)
 
 
-def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, response: FloatArray, layout: Layout) -> FloatArray:
-    """First beliefs, h x w x 4, all 0 where nothing is assigned."""
-    belief = np.zeros((*sure.shape, 4), np.float32)
-    outside = (aggressive < 0.5) * (1 - response)
-    low = layout.high < CHIN - 0.35
-    belief[..., BACKDROP] = outside * ~low
-    belief[..., CLOTHES] = low * np.maximum(outside, 0.5 * (layout.high < CHIN - 0.9) * (np.abs(layout.right) < 0.8))
-    belief[..., HAIR] = response * ((layout.head < 0) & (layout.high > EYE_LINE - 0.3) & ~sure)
-    belief[..., FACE] = sure
-    return belief
+def _likelihoods(likeness: Likeness, belief: FloatArray, skin: FloatArray | None, doubt: float) -> Scores:
+    """log p(features | class) of every pixel; a class without samples is told by nothing but its place.
 
-
-def _likelihoods(likeness: Likeness, belief: FloatArray, skin: FloatArray, doubt: float) -> Scores:
-    """log p(features | class) of every pixel; a class without samples is told by nothing but its place."""
-    learnt = [likeness.log_density(skin, doubt=doubt, room=SKIN_ROOM)]
-    for label in (HAIR, BACKDROP, CLOTHES):
+    Args:
+        skin: what teaches face (n,); None: what is believed to be face, as with the other classes.
+    """
+    learnt = []
+    for label in (FACE, HAIR, BACKDROP, CLOTHES):
+        if label == FACE and skin is not None:
+            learnt.append(likeness.log_density(skin, doubt=doubt, room=SKIN_ROOM))
+            continue
         weights = belief[..., label].reshape(-1)
         weights = weights * np.clip((weights - TEACHING[0]) / (TEACHING[1] - TEACHING[0]), 0, 1)
         learnt.append(likeness.log_density(weights, doubt=doubt))

@@ -42,7 +42,7 @@ def layout_of(landmarks: Landmarks, window: Window) -> Layout:
     """The geometry of a face in a window."""
     pose = pose_of(landmarks)
     shape = (window.height, window.width)
-    unit = max(landmarks.interocular * window.scale, 1e-3)
+    unit = max(1e-3, landmarks.interocular * window.scale)  # in this order NaN gives way
     points = window.inside(landmarks.points[:, :2].astype(np.float64))
     outline = filled([_hull(points)], shape)
     solids = [window.inside(p) for p in (cranium(pose), *ears(pose))]

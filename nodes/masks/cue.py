@@ -1,0 +1,57 @@
+"""Where face, hair and background are, as a small network guesses it from many other photos.
+
+The hand-set prior of `masks.prior` knows only where things tend to be; the network also looks. It knows long hair on
+shoulders from a dark suit, fair hair from skin and a hat from hair, and leaves the exact edge to the classifiers of
+this photo. Its teachers were MediaPipe's selfie segmentation (`masks.network`), which is a hundred times its size, and
+the true labels of path-traced heads; the card beside the weights says which.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphface import node
+from graphface.nodes.landmarks.network import network_pixels
+from graphface.nodes.masks.hair import Hair
+from graphface.nodes.masks.label_network import Weights, label_scores
+from graphface.nodes.masks.label_weights import shipped_weights
+from graphface.nodes.masks.shown import mirrored, shown
+from graphface.nodes.masks.upright import Upright, upright_of
+from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
+
+
+@node("masks.cue")
+def cue(photo: Image, landmarks: Landmarks) -> Segmentation:
+    """Face (with ears and neck), hair and background by the small network that comes with the package.
+
+    Args:
+        photo: any size and encoding; what is not a number is black.
+        landmarks: any scheme; they say where the head is, how large and how rolled.
+
+    Returns:
+        Soft labels of the photo's size that sum to 1; their edges are as wide as a twentieth of the inter-ocular
+        distance. Background further than 3 such distances from the face.
+    """
+    grid = upright_of(landmarks)
+    chances = label_chances(photo, landmarks, grid, shipped_weights())
+    known = grid.laid_back(np.ascontiguousarray(chances[..., :2]), photo.pixels.shape)
+    face, hair = (np.ascontiguousarray(known[..., k]) for k in range(2))
+    return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
+
+
+@node("masks.cued_hair")
+def cued_hair(labels: Segmentation, masks: HeadMasks) -> Hair:
+    """What is hair by labels found elsewhere, in place of the detector `masks.hair`."""
+    return Hair(labels.hair, labels.hair * masks.normal)
+
+
+def label_chances(photo: Image, landmarks: Landmarks, grid: Upright, weights: Weights) -> FloatArray:
+    """Probabilities of face, hair and background on the grid, float32 HEIGHT x WIDTH x 3.
+
+    The mean over the picture and its mirror image: right and left are told alike, and noise counts half.
+    """
+    pixels = network_pixels(grid.sampled(photo.pixels), photo.encoding)
+    cells = shown(pixels, grid.seen(photo.pixels.shape), grid.layout(landmarks))
+    scores = (label_scores(cells, weights) + label_scores(mirrored(cells), weights)[:, ::-1]) / 2
+    raised = np.exp(scores - scores.max(axis=2, keepdims=True))
+    return np.asarray(raised / raised.sum(axis=2, keepdims=True), np.float32)
