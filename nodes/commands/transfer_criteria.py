@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from graphface import Evaluator, GraphfaceError, MemoryTier, load
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.commands.transfer_truth import reinhard
 from graphface.nodes.makeup.features import EYES, LIPS, MOUTH, NOSE, Features
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
@@ -97,7 +98,7 @@ def feature_similarity(before: FloatArray, after: FloatArray, features: Features
     sigma = max(0.1 * landmarks.interocular, 1.0)
 
     def equalized(pixels: FloatArray) -> FloatArray:
-        grey = pixels.mean(axis=2)
+        grey = channel_mean(pixels)
         fine = grey - cv2.GaussianBlur(grey, (0, 0), sigma)
         power = np.maximum(cv2.GaussianBlur(fine * fine, (0, 0), sigma), 0)
         return np.asarray(fine / np.sqrt(power + 1e-3), np.float32)
@@ -115,7 +116,7 @@ def seam(before: FloatArray, after: FloatArray, core: Mask) -> float:
     edge = (core > 0.02) & (core < 0.98)
     if not edge.any():
         return 1.0
-    gradients = [np.hypot(*np.gradient(pixels.mean(axis=2)))[edge].mean() for pixels in (before, after)]
+    gradients = [np.hypot(*np.gradient(channel_mean(pixels)))[edge].mean() for pixels in (before, after)]
     return float(gradients[1] / max(gradients[0], 1 / 255))
 
 
@@ -132,4 +133,4 @@ def albedo_distance(albedo: FloatArray, reference: FloatArray, features: Feature
 
 def _chromaticity(pixels: FloatArray) -> FloatArray:
     """Colour over its intensity: the paper's albedo."""
-    return np.asarray(pixels / np.maximum(pixels.mean(axis=2, keepdims=True), 0.15), np.float32)
+    return np.asarray(pixels / np.maximum(channel_mean(pixels)[..., None], 0.15), np.float32)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import warn
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Image, Landmarks
 from graphface.nodes.warp.correspondence import Correspondence
@@ -146,7 +147,7 @@ def _refined_places(
 
 
 def _log_intensity(pixels: FloatArray) -> FloatArray:
-    intensity = np.maximum(pixels.mean(axis=2), 0)
+    intensity = np.maximum(channel_mean(pixels), 0)
     return np.asarray(np.log(intensity + np.float32(_FLOOR)), np.float32)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.types import FloatArray, Landmarks, Mask, Shading
 
@@ -38,7 +39,7 @@ def in_front(
 
     scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
     full = (shading.shape[1], shading.shape[0])
-    grey = shading if shading.ndim == 2 else np.asarray(shading.mean(axis=2, dtype=np.float32))
+    grey = channel_mean(shading)
     small = cv2.resize(grey, [max(1, round(n * scale)) for n in full], interpolation=cv2.INTER_AREA)
     sigma = max(size * landmarks.interocular * scale, 0.5)
     around = cv2.resize(cv2.GaussianBlur(small, (0, 0), sigma), full, interpolation=cv2.INTER_LINEAR)

@@ -14,6 +14,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, FloatArray, Landmarks, Mask, Shading
 
@@ -59,8 +60,8 @@ def pigment(
     def large(values: FloatArray) -> FloatArray:
         return np.asarray(cv2.resize(values, full, interpolation=cv2.INTER_LINEAR), np.float32)
 
-    light = _grey(estimated)
-    brightness, lit, colour = small(_grey(shading)), small(light), small(albedo)
+    light = channel_mean(estimated)
+    brightness, lit, colour = small(channel_mean(shading)), small(light), small(albedo)
     usual = _smooth(brightness, 1.5 * reach * unit)
     weight = (np.square(_trusted(brightness, usual, lit, dark, bright)) + _LEAST_TRUST) * (small(skin) + _LEAST_TRUST)
     near, far = (_smooth(np.dstack([colour * weight[..., None], weight]), r * reach * unit) for r in (1, 4))
@@ -70,7 +71,7 @@ def pigment(
     steady = np.empty_like(albedo)
 
     def strip(rows: slice) -> None:
-        trust = _trusted(_grey(shading[rows]), usual[rows], light[rows], dark, bright)
+        trust = _trusted(channel_mean(shading[rows]), usual[rows], light[rows], dark, bright)
         steady[rows] = around[rows] + cv2.cvtColor(trust, cv2.COLOR_GRAY2RGB) * (albedo[rows] - around[rows])
 
     by_strips(strip, albedo.shape)
@@ -83,10 +84,6 @@ def _trusted(brightness: FloatArray, usual: FloatArray, light: FloatArray, dark:
     crease = (brightness + least) / (usual + least) * np.float32(2 / dark) - 1
     shine = 3 - (brightness + least) / (light + least) * np.float32(2 / bright)
     return np.asarray(np.clip(np.minimum(crease, shine), 0, 1), np.float32)
-
-
-def _grey(values: Shading) -> FloatArray:
-    return values if values.ndim == 2 else np.asarray(values.mean(axis=2, dtype=np.float32))
 
 
 def _smooth(values: FloatArray, sigma: float) -> FloatArray:

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.types import FloatArray, Landmarks, Mask, Shading
 
@@ -78,8 +79,7 @@ def shaved(
         cv2.fillConvexPoly(drawn, cv2.convexHull(np.round(corners).astype(np.int32)), 1)
         return drawn.astype(np.float32)
 
-    grey = shading if shading.ndim == 2 else np.asarray(shading.mean(axis=2, dtype=np.float32))
-    level = np.log(np.maximum(small(grey), 0) + np.float32(_LEAST_LIGHT))
+    level = np.log(np.maximum(small(channel_mean(shading)), 0) + np.float32(_LEAST_LIGHT))
     fine = level - smooth(level, strand)
     parts = small(np.minimum(features.any_of("mouth", "lips", "nose"), 1))
     counts = (1 - np.clip(2 * smooth(parts, strand), 0, 1)) * small(skin)  # contours are no strands

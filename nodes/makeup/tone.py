@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.detail.rendering import rendering
 from graphface.nodes.makeup.features import Features
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Mask, Shading
@@ -94,8 +95,7 @@ def lightness(estimated: Shading, reference: Shading, mask: Mask) -> float:
         warn("makeup: the face mask is empty; the lightness of the two skins is taken as equal")
         return 1.0
     own, other = (
-        float(np.einsum("hw,hw->", v.reshape(*mask.shape, -1).mean(axis=2), mask, dtype=np.float64)) / total
-        for v in (estimated, reference)
+        float(np.einsum("hw,hw->", channel_mean(v), mask, dtype=np.float64)) / total for v in (estimated, reference)
     )
     return float(np.clip(max(other, _LEAST_LIGHT) / max(own, _LEAST_LIGHT), 1 / _MOST_RATIO, _MOST_RATIO))
 

@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from graphface import UnreadableFile
+from graphface.nodes.colour import channel_mean
 from graphface.nodes.types import Albedo
 
 _LEAST = 1e-10
@@ -60,7 +61,7 @@ def whdr(albedo: Albedo, judgements: Iterable[Judgement], *, delta: float = 0.1)
     Raises:
         ValueError: no judgement has any weight.
     """
-    lightness = albedo.mean(axis=2)
+    lightness = channel_mean(albedo)
     wrong = total = 0.0
     for judgement in judgements:
         one, other = (_at(lightness, point) for point in (judgement.first, judgement.second))
