@@ -189,7 +189,9 @@ def masks(
     agreement: Annotated[
         str | None, typer.Option(help="Instead: how far labels of these photos agree with those of masks.network.")
     ] = None,
-    labels: Annotated[str, typer.Option(help="What finds the labels: classify, mixtures or network.")] = "classify",
+    labels: Annotated[
+        str, typer.Option(help="What finds the labels: classify, cue, detector, mixtures or network.")
+    ] = "classify",
 ) -> None:
     """Segment the path-traced heads: overlap and boundary error of every label, time and memory, for each matting.
 

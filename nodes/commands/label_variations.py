@@ -9,7 +9,7 @@ import numpy as np
 from numpy.random import Generator
 
 from graphface.nodes.commands.label_lessons import Bytes, Lesson
-from graphface.nodes.masks.shown import mirrored, shown
+from graphface.nodes.masks.shown import mirror_image, shown
 from graphface.nodes.masks.upright import HEIGHT, UNIT, WIDTH, upright_of
 from graphface.nodes.types import FloatArray, Landmarks
 
@@ -48,7 +48,7 @@ def example(lesson: Lesson, others: Sequence[Lesson], random: Generator) -> Exam
     sure = np.clip(2 * target.max(axis=2) - 1, 0, 1)
     weight = seen * (UNSURE + (1 - UNSURE) * sure)
     if random.random() < 0.5:
-        input_, target, weight = mirrored(input_), target[:, ::-1], weight[:, ::-1]
+        input_, target, weight = mirror_image(input_), target[:, ::-1], weight[:, ::-1]
     return Example(
         np.ascontiguousarray(input_, np.float32),
         np.ascontiguousarray(target, np.float32),

@@ -18,6 +18,7 @@ from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.classify import classify
+from graphface.nodes.masks.cue import cue, cued_hair
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
@@ -80,8 +81,20 @@ def segment_truth(
             yield compared(head.name, name, matting, photo, landmarks, labels, truth, labels_ms)
 
 
-def segment_photo(photo: Image, landmarks: Landmarks, model: Model = "parzen") -> Segmentation:
+def segment_photo(photo: Image, landmarks: Landmarks) -> Segmentation:
     """The stage up to the classifiers, as in graphs/segment.yaml."""
+    masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
+    known = cue(photo, landmarks)
+    return classify(pixel_features(photo, landmarks), masks, cued_hair(known, masks), landmarks, photo, known)
+
+
+def segment_by_cue(photo: Image, landmarks: Landmarks) -> Segmentation:
+    """What the classifiers start from."""
+    return cue(photo, landmarks)
+
+
+def segment_by_detector(photo: Image, landmarks: Landmarks, model: Model = "parzen") -> Segmentation:
+    """Labels before matting, as in the variant `detector` of graphs/segment.yaml."""
     masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
     features = pixel_features(photo, landmarks)
     return classify(features, masks, hair(features, masks, landmarks, model=model), landmarks, photo, model=model)
@@ -89,7 +102,7 @@ def segment_photo(photo: Image, landmarks: Landmarks, model: Model = "parzen") -
 
 def segment_by_mixtures(photo: Image, landmarks: Landmarks) -> Segmentation:
     """Labels before matting, as in the variant `mixtures` of graphs/segment.yaml."""
-    return segment_photo(photo, landmarks, "mixture")
+    return segment_by_detector(photo, landmarks, "mixture")
 
 
 def segment_by_network(photo: Image, landmarks: Landmarks) -> Segmentation:
@@ -99,6 +112,8 @@ def segment_by_network(photo: Image, landmarks: Landmarks) -> Segmentation:
 
 LABELLERS: dict[str, Labeller] = {
     "classify": segment_photo,
+    "cue": segment_by_cue,
+    "detector": segment_by_detector,
     "mixtures": segment_by_mixtures,
     "network": segment_by_network,
 }

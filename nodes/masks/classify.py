@@ -94,8 +94,7 @@ def classify(
     if cue is None:
         start = start_from_place(values, layout, sure, window.shrunk(masks.aggressive), response, unit, prior)
     else:
-        chances = window.shrunk(np.dstack([cue.face, cue.hair, cue.background]))
-        start = start_from_cue(chances, layout, sure, response, prior)
+        start = start_from_cue(window.shrunk(cue.face), window.shrunk(cue.hair), layout, sure, response, prior)
     belief, likeness = start.belief, likeness_of(values, model, components)
     for _ in range(rounds):
         scores = start.expected + evidence * _likelihoods(likeness, belief, start.skin, DOUBT * unit**2)

@@ -15,27 +15,27 @@ from graphface.nodes.landmarks.network import network_pixels
 from graphface.nodes.masks.hair import Hair
 from graphface.nodes.masks.label_network import Weights, label_scores
 from graphface.nodes.masks.label_weights import shipped_weights
-from graphface.nodes.masks.shown import mirrored, shown
+from graphface.nodes.masks.shown import mirror_image, shown
 from graphface.nodes.masks.upright import Upright, upright_of
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
 
 
 @node("masks.cue")
-def cue(photo: Image, landmarks: Landmarks) -> Segmentation:
+def cue(photo: Image, landmarks: Landmarks, *, mirrored: bool = True) -> Segmentation:
     """Face (with ears and neck), hair and background by the small network that comes with the package.
 
     Args:
         photo: any size and encoding; what is not a number is black.
         landmarks: any scheme; they say where the head is, how large and how rolled.
+        mirrored: average with the labels of the mirrored picture: right and left are told alike, and noise counts less.
 
     Returns:
         Soft labels of the photo's size that sum to 1; their edges are as wide as a twentieth of the inter-ocular
         distance. Background further than 3 such distances from the face.
     """
     grid = upright_of(landmarks)
-    chances = label_chances(photo, landmarks, grid, shipped_weights())
-    known = grid.laid_back(np.ascontiguousarray(chances[..., :2]), photo.pixels.shape)
-    face, hair = (np.ascontiguousarray(known[..., k]) for k in range(2))
+    chances = label_chances(photo, landmarks, grid, shipped_weights(), mirrored)
+    face, hair = (grid.laid_back(np.ascontiguousarray(chances[..., k]), photo.pixels.shape) for k in range(2))
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
 
 
@@ -45,13 +45,12 @@ def cued_hair(labels: Segmentation, masks: HeadMasks) -> Hair:
     return Hair(labels.hair, labels.hair * masks.normal)
 
 
-def label_chances(photo: Image, landmarks: Landmarks, grid: Upright, weights: Weights) -> FloatArray:
-    """Probabilities of face, hair and background on the grid, float32 HEIGHT x WIDTH x 3.
-
-    The mean over the picture and its mirror image: right and left are told alike, and noise counts half.
-    """
+def label_chances(photo: Image, landmarks: Landmarks, grid: Upright, weights: Weights, mirrored: bool) -> FloatArray:
+    """Probabilities of face, hair and background on the grid, float32 HEIGHT x WIDTH x 3."""
     pixels = network_pixels(grid.sampled(photo.pixels), photo.encoding)
     cells = shown(pixels, grid.seen(photo.pixels.shape), grid.layout(landmarks))
-    scores = (label_scores(cells, weights) + label_scores(mirrored(cells), weights)[:, ::-1]) / 2
+    scores = label_scores(cells, weights)
+    if mirrored:
+        scores = np.float32(0.5) * (scores + label_scores(mirror_image(cells), weights)[:, ::-1])
     raised = np.exp(scores - scores.max(axis=2, keepdims=True))
     return np.asarray(raised / raised.sum(axis=2, keepdims=True), np.float32)

@@ -58,7 +58,7 @@ def shown(pixels: FloatArray, seen: FloatArray, layout: Layout) -> FloatArray:
     return np.concatenate(cells, axis=2, dtype=np.float32)
 
 
-def mirrored(cells: FloatArray) -> FloatArray:
+def mirror_image(cells: FloatArray) -> FloatArray:
     """The same of the mirrored picture: the pixels of each cell change places, and what was right is left."""
     cells = cells[:, ::-1].copy()
     for first, channels in ((COLORS, 3), (ROUGH, 1)):

@@ -66,7 +66,7 @@ class Upright:
         return inside.astype(np.float32)
 
     def laid_back(self, values: FloatArray, shape: tuple[int, ...]) -> FloatArray:
-        """A map of the grid, HEIGHT x WIDTH x C, on a photo of `shape`, linearly interpolated; 0 beyond the grid."""
+        """A map of the grid, HEIGHT x WIDTH (x C), on a photo of `shape`, linearly interpolated; 0 beyond the grid."""
         import cv2
 
         top, bottom, left, right = self._part(shape)

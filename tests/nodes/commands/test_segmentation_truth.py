@@ -28,7 +28,7 @@ class TestSegmentTruth:
     def test_matting_sharpens(self, rows):
         """The guided filter brings hair's outline nearer to the truth than the classifiers alone."""
         edge = {m: np.mean([row.boundary[1] for row in rows if row.matting == m]) for m in ("none", "guided")}
-        assert edge["guided"] < 0.6 * edge["none"]
+        assert edge["guided"] < 0.7 * edge["none"]
 
     def test_no_heads_is_an_error(self, tmp_path):
         """A folder without truth is named."""

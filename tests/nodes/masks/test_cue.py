@@ -10,7 +10,7 @@ from portraits import landmarks_at, portrait
 
 from graphface import GraphfaceWarning
 from graphface.nodes.masks.cue import cue
-from graphface.nodes.masks.shown import CHANNELS, SKIN, mirrored, shown
+from graphface.nodes.masks.shown import CHANNELS, SKIN, mirror_image, shown
 from graphface.nodes.masks.upright import HEIGHT, WIDTH, upright_of
 from graphface.nodes.types import Image
 
@@ -57,12 +57,12 @@ class TestShown:
         layout, pixels = grid.layout(landmarks), grid.sampled(photo.pixels)
         seen = grid.seen(photo.pixels.shape)
         there = shown(np.ascontiguousarray(pixels[:, ::-1]), np.ascontiguousarray(seen[:, ::-1]), layout)
-        back = mirrored(there)
+        back = mirror_image(there)
         here = shown(pixels, seen, layout)
         inner = np.abs(here - back)[4:-4, 4:-4]
         assert np.median(inner) < 0.02
         np.testing.assert_allclose(back[..., :12], here[..., :12], atol=0.3)
-        np.testing.assert_array_equal(mirrored(mirrored(here)), here)
+        np.testing.assert_array_equal(mirror_image(mirror_image(here)), here)
 
     def test_no_skin_in_sight(self):
         """Where no sure skin lies in the frame that is said, and colours are compared with the usual one."""
