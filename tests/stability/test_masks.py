@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from portraits import HAIR, SKIN, landmarks_at, portrait, surface_of
 
 from graphface.nodes.masks.classify import classify
+from graphface.nodes.masks.cue import cue, cued_hair
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
@@ -25,6 +26,13 @@ def segmented(photo, landmarks, matting=guided):
     seen = pixel_features(photo, landmarks)
     labels = classify(seen, masks, hair(seen, masks, landmarks), landmarks, photo)
     return matting(photo, labels, landmarks)
+
+
+def segmented_from_a_cue(photo, landmarks):
+    masks = geometric(photo, landmarks, surface_of(landmarks, photo.pixels.shape[:2]))
+    known = cue(photo, landmarks)
+    labels = classify(pixel_features(photo, landmarks), masks, cued_hair(known, masks), landmarks, photo, known)
+    return guided(photo, labels, landmarks)
 
 
 def assert_partition(labels):
@@ -57,6 +65,12 @@ def test_hard_pictures(kind, matting):
     assert_partition(segmented(picture(kind), landmarks_at(60, 60, 26), matting))
 
 
+@pytest.mark.parametrize("kind", ["black", "saturated", "flat", "two colours", "salt and pepper", "noise", "holes"])
+def test_hard_pictures_from_a_cue(kind):
+    """So are they where the classifiers start from the small network."""
+    assert_partition(segmented_from_a_cue(picture(kind), landmarks_at(60, 60, 26)))
+
+
 @pytest.mark.parametrize(
     ("x", "y", "interocular"),
     [
@@ -74,6 +88,7 @@ def test_hard_places(x, y, interocular):
     """A face that fills the frame, is tiny, cut by the frame or outside of it."""
     photo = portrait(120)[0]
     assert_partition(segmented(photo, landmarks_at(x, y, interocular)))
+    assert_partition(segmented_from_a_cue(photo, landmarks_at(x, y, interocular)))
 
 
 def test_single_hair_pixel():

@@ -35,7 +35,7 @@ class TestUprightOf:
 class TestSampled:
     @given(st.floats(-3.1, 3.1), st.floats(10, 60))
     def test_samples_are_where_they_should_be(self, roll, interocular):
-        """A sample of a picture of coordinates is the place that the grid's matrix says, within a tenth of a pixel."""
+        """A sample of a picture of coordinates is the place that the grid's matrix says, within a sixth of a pixel."""
         grid = upright_of(landmarks_at(200, 200, interocular, roll))
         found = grid.sampled(ramp(400, 400))
         v, u = np.mgrid[:HEIGHT, :WIDTH].astype(np.float64)
@@ -43,7 +43,7 @@ class TestSampled:
         inside = grid.seen((400, 400)) > 0
         inside[[0, -1]] = inside[:, [0, -1]] = False
         away = np.hypot(back[..., 0] - u, back[..., 1] - v)
-        assert away[inside & _deep(found)].max() < 0.1
+        assert away[inside & _deep(found)].max() < 0.15
 
     def test_finer_grids_agree(self):
         """Two by two samples of the finer grid average to the coarse one's; OpenCV interpolates at 32nds of a pixel."""
