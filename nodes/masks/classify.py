@@ -8,6 +8,7 @@ what was found.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy as np
@@ -91,17 +92,18 @@ def classify(
     pixels = window.shrunk(photo.pixels)
     sure = window.shrunk(masks.conservative) > 0.5
     response = window.shrunk(hair.response)
-    if cue is None:
+    told = None if cue is None else [window.shrunk(cue.face), window.shrunk(cue.hair)]
+    if told is None:
         start = start_from_place(values, layout, sure, window.shrunk(masks.aggressive), response, unit, prior)
     else:
-        start = start_from_cue(window.shrunk(cue.face), window.shrunk(cue.hair), layout, sure, response, prior)
+        start = start_from_cue(*told, layout, sure, response, prior)
     belief, likeness = start.belief, likeness_of(values, model, components)
     for _ in range(rounds):
         scores = start.expected + evidence * _likelihoods(likeness, belief, start.skin, DOUBT * unit**2)
         scores[sure] = _certain(FACE)
         belief = smoothed(scores, pixels, method=smoothing)
         belief[sure] = np.eye(4, dtype=np.float32)[FACE]
-    belief = _connected(belief, layout, unit)
+    belief = _connected(belief, layout, unit, told)
     shape = masks.normal.shape
     face, locks = (window.enlarged(belief[..., k], shape, beyond=0) for k in (FACE, HAIR))
     return Segmentation(face, locks, np.maximum(1 - face - locks, 0))
@@ -131,10 +133,14 @@ def _likelihoods(likeness: Likeness, belief: FloatArray, skin: FloatArray | None
     return np.stack(scores, axis=1).reshape(belief.shape).astype(np.float32, copy=False)
 
 
-def _connected(belief: FloatArray, layout: Layout, unit: float) -> FloatArray:
+def _connected(belief: FloatArray, layout: Layout, unit: float, told: Sequence[FloatArray] | None) -> FloatArray:
     """Hair that does not hang on the head becomes skin or background, face that does not hang on the face background.
 
     What hangs by a strip thinner than `STRIP` does not hang: the shadow of a jaw may tie a dark suit to dark hair.
+
+    Args:
+        told: a cue's probabilities of face and hair. What it is sure of needs not hang: it saw the whole head, and a
+            lock behind a shadow hangs by so little that noise would cut it off.
     """
     belief = belief.copy()
     head = (layout.head < 0) & (layout.high > CHIN + 0.5)
@@ -146,6 +152,8 @@ def _connected(belief: FloatArray, layout: Layout, unit: float) -> FloatArray:
         (FACE, skin, skin, np.zeros_like(collar)),
     ):
         stray = belief[..., label] * apart(belief[..., label], root, unit, toll) * ~stays
+        if told is not None:
+            stray *= np.clip(1 - 2 * told[label], 0, 1)
         belief[..., label] -= stray
         shadow = throat if label == HAIR else np.zeros_like(throat)
         belief[..., FACE] += stray * shadow
