@@ -94,6 +94,7 @@ pack = Pack(
         "Features": "graphface.nodes.makeup.features:Features",
         "Judgements": "graphface.nodes.metrics.judgements:Judgements",
         "Pins": "graphface.nodes.warp.correspondence:Pins",
+        "LabelWeights": "graphface.nodes.masks.label_weights:LabelWeights",
         "Environment": "graphface.nodes.envmap:Environment",
         "Regions": "graphface.nodes.regions:Regions",
         "Representation": "graphface.nodes.representation:Representation",

@@ -192,21 +192,30 @@ def masks(
     labels: Annotated[
         str, typer.Option(help="What finds the labels: classify, cue, detector, mixtures or network.")
     ] = "classify",
+    weights: Annotated[
+        Path | None, typer.Option(help="Of the cue's network, as `graphface models labels --without ...` writes them.")
+    ] = None,
 ) -> None:
     """Segment the path-traced heads: overlap and boundary error of every label, time and memory, for each matting.
 
     With --noise, segment photos with and without noise of one 8-bit level: overlap of every label with itself. With
     --agreement, photos whose true labels nobody knows: overlap with what a network sees.
     """
+    from functools import partial
     from statistics import fmean, median
 
     from graphface import UsageError
     from graphface.nodes.commands import segmentation_truth as truth
+    from graphface.nodes.masks.label_weights import LabelWeights
     from graphface.terminal import print_table
 
     if labels not in truth.LABELLERS:
         raise UsageError(f"--labels {labels!r}: expected {', '.join(truth.LABELLERS)}")
     label = truth.LABELLERS[labels]
+    if weights is not None:
+        if labels != "classify":
+            raise UsageError("--weights goes with --labels classify")
+        label = partial(truth.segment_photo, weights=LabelWeights.from_file(weights))
     if noise is not None:
         _print_noise(noise, label)
         return

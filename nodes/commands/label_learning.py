@@ -10,6 +10,7 @@ import sys
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
@@ -40,27 +41,33 @@ class Course:
 
 
 def learn_labels(
-    photos: Path, portraits: Path | None, people: Path | None, data: Path | None, course: Course
+    photos: Path,
+    portraits: Path | None,
+    people: Path | None,
+    data: Path | None,
+    course: Course,
+    without: Sequence[str] = (),
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Weights for `masks.cue`, and what their card says.
 
     Args:
         photos: a folder of varied pictures of faces, labelled by `masks.network` as all photographs are.
+        without: patterns of names (without suffix; heads are called gt01_top) that are kept out, to be tested on.
         portraits: a folder of pictures that are much alike. people: one of several pictures of each person,
             PERSON_anything.jpg, of which three are taken. data: a folder whose truth/ has heads with true labels.
 
     Raises:
         UnreadableFile: there is no face to learn from. UsageError: PyTorch or LiteRT is not installed.
     """
-    lessons = [(lesson, course.photos) for lesson in photo_lessons(_pictures(photos))]
+    lessons = [(lesson, course.photos) for lesson in photo_lessons(_pictures(photos, without))]
     if portraits is not None:
-        lessons += [(lesson, course.portraits) for lesson in photo_lessons(_pictures(portraits))]
+        lessons += [(lesson, course.portraits) for lesson in photo_lessons(_pictures(portraits, without))]
     if people is not None:
-        lessons += [(lesson, course.people) for lesson in photo_lessons(_some_of_each(_pictures(people)))]
+        lessons += [(lesson, course.people) for lesson in photo_lessons(_some_of_each(_pictures(people, without)))]
     plates = [lesson for lesson, _ in lessons]
     if not plates:
         raise UnreadableFile(photos, "holds no photograph with a face")
-    heads = [] if data is None else list(head_lessons(data))
+    heads = [] if data is None else [head for head in head_lessons(data) if not _kept_out(head.name, without)]
     lessons += [(head, course.heads) for head in heads]
     examples = examples_of(lessons, plates, course.seed)
     weights = folded(trained(examples, steps=course.steps, seed=course.seed))
@@ -70,6 +77,7 @@ def learn_labels(
         "path_traced_pictures": len(heads),
         "variations": len(examples.shown),
         "course": asdict(course),
+        **({"without": list(without)} if without else {}),
     }
     return weights, card
 
@@ -91,8 +99,13 @@ def examples_of(lessons: Sequence[tuple[Lesson, int]], plates: Sequence[Lesson],
     return Examples(shown, labels, weight)
 
 
-def _pictures(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.glob("*") if path.suffix.lower() in _SUFFIXES)
+def _pictures(folder: Path, without: Sequence[str]) -> list[Path]:
+    found = (path for path in folder.glob("*") if path.suffix.lower() in _SUFFIXES)
+    return sorted(path for path in found if not _kept_out(path.stem, without))
+
+
+def _kept_out(name: str, without: Sequence[str]) -> bool:
+    return any(fnmatchcase(name, pattern) for pattern in without)
 
 
 def _some_of_each(pictures: list[Path]) -> list[Path]:

@@ -124,6 +124,9 @@ def labels(
         Path | None, typer.Option(help="Photographs, several of each person: PERSON_anything.jpg.")
     ] = None,
     data: Annotated[Path | None, typer.Option(help="Folder of ground truth; it holds truth/.")] = None,
+    without: Annotated[
+        list[str] | None, typer.Option(help="Names to keep out, to be tested on: 'mk_*', 'gt01_*'; may be repeated.")
+    ] = None,
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("labels.safetensors"),
     steps: Annotated[int | None, typer.Option(min=1, help="Steps of eight pictures; as shipped by default.")] = None,
     card: Annotated[Path | None, typer.Option(help="JSON with further words for the card.")] = None,
@@ -137,7 +140,7 @@ def labels(
 
     said = words_of(card)
     course = Course() if steps is None else replace(Course(), steps=steps)
-    weights, made = learn_labels(photos, portraits, people, data, course)
+    weights, made = learn_labels(photos, portraits, people, data, course, without or ())
     write_weights(weights, {**said, **made}, out)
     print(f"{out}: from {made['variations']} variations of {made['photographs']} photographs and of truth")
 

@@ -22,6 +22,7 @@ from graphface.nodes.masks.cue import cue, cued_hair
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
+from graphface.nodes.masks.label_weights import LabelWeights
 from graphface.nodes.masks.likeness import Model
 from graphface.nodes.masks.network import network
 from graphface.nodes.matting.closed_form import closed_form
@@ -81,10 +82,10 @@ def segment_truth(
             yield compared(head.name, name, matting, photo, landmarks, labels, truth, labels_ms)
 
 
-def segment_photo(photo: Image, landmarks: Landmarks) -> Segmentation:
-    """The stage up to the classifiers, as in graphs/segment.yaml."""
+def segment_photo(photo: Image, landmarks: Landmarks, weights: LabelWeights | None = None) -> Segmentation:
+    """The stage up to the classifiers, as in graphs/segment.yaml; `weights` of the cue, the shipped ones by default."""
     masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
-    known = cue(photo, landmarks)
+    known = cue(photo, landmarks, weights)
     return classify(pixel_features(photo, landmarks), masks, cued_hair(known, masks), landmarks, photo, known)
 
 

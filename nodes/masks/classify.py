@@ -8,7 +8,6 @@ what was found.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Annotated
 
 import numpy as np
@@ -92,7 +91,7 @@ def classify(
     pixels = window.shrunk(photo.pixels)
     sure = window.shrunk(masks.conservative) > 0.5
     response = window.shrunk(hair.response)
-    told = None if cue is None else [window.shrunk(cue.face), window.shrunk(cue.hair)]
+    told = None if cue is None else (window.shrunk(cue.face), window.shrunk(cue.hair))
     if told is None:
         start = start_from_place(values, layout, sure, window.shrunk(masks.aggressive), response, unit, prior)
     else:
@@ -133,7 +132,9 @@ def _likelihoods(likeness: Likeness, belief: FloatArray, skin: FloatArray | None
     return np.stack(scores, axis=1).reshape(belief.shape).astype(np.float32, copy=False)
 
 
-def _connected(belief: FloatArray, layout: Layout, unit: float, told: Sequence[FloatArray] | None) -> FloatArray:
+def _connected(
+    belief: FloatArray, layout: Layout, unit: float, told: tuple[FloatArray, FloatArray] | None
+) -> FloatArray:
     """Hair that does not hang on the head becomes skin or background, face that does not hang on the face background.
 
     What hangs by a strip thinner than `STRIP` does not hang: the shadow of a jaw may tie a dark suit to dark hair.

@@ -14,19 +14,22 @@ from graphface import node
 from graphface.nodes.landmarks.network import network_pixels
 from graphface.nodes.masks.hair import Hair
 from graphface.nodes.masks.label_network import Weights, label_scores
-from graphface.nodes.masks.label_weights import shipped_weights
+from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights
 from graphface.nodes.masks.shown import mirror_image, shown
 from graphface.nodes.masks.upright import Upright, upright_of
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
 
 
 @node("masks.cue")
-def cue(photo: Image, landmarks: Landmarks, *, mirrored: bool = True) -> Segmentation:
+def cue(
+    photo: Image, landmarks: Landmarks, weights: LabelWeights | None = None, *, mirrored: bool = True
+) -> Segmentation:
     """Face (with ears and neck), hair and background by the small network that comes with the package.
 
     Args:
         photo: any size and encoding; what is not a number is black.
         landmarks: any scheme; they say where the head is, how large and how rolled.
+        weights: the shipped ones by default.
         mirrored: average with the labels of the mirrored picture: right and left are told alike, and noise counts less.
 
     Returns:
@@ -34,7 +37,8 @@ def cue(photo: Image, landmarks: Landmarks, *, mirrored: bool = True) -> Segment
         distance. Background further than 3 such distances from the face.
     """
     grid = upright_of(landmarks)
-    chances = label_chances(photo, landmarks, grid, shipped_weights(), mirrored)
+    learned = shipped_weights() if weights is None else weights.arrays
+    chances = label_chances(photo, landmarks, grid, learned, mirrored)
     face, hair = (grid.laid_back(np.ascontiguousarray(chances[..., k]), photo.pixels.shape) for k in range(2))
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,17 @@ FORMAT = "graphface-labels-1"
 
 SHIPPED = Path(__file__).with_name("labels.safetensors")
 """A constant, so that its content counts in the fingerprint of what uses it."""
+
+
+@dataclass(frozen=True)
+class LabelWeights:
+    """What a label network has learned; as a graph input, a file that `graphface models labels` wrote."""
+
+    arrays: Weights
+
+    @classmethod
+    def from_file(cls, path: Path) -> LabelWeights:
+        return cls(read_weights(path))
 
 
 @cache

@@ -124,3 +124,11 @@ class TestLearnLabels:
         """A folder without a face is named."""
         with pytest.raises(UnreadableFile, match="no photograph"):
             learn_labels(tmp_path, None, None, None, Course(steps=1))
+
+    @pytest.mark.filterwarnings("error")
+    def test_kept_out(self, tmp_path: Path):
+        """What is kept out by name is not even looked at."""
+        for name in ("mk_1.jpg", "mk_2.png"):
+            (tmp_path / name).write_bytes(b"no picture")
+        with pytest.raises(UnreadableFile, match="no photograph"):
+            learn_labels(tmp_path, None, None, None, Course(steps=1), without=["mk_*"])

@@ -10,6 +10,7 @@ from portraits import landmarks_at, portrait
 
 from graphface import GraphfaceWarning
 from graphface.nodes.masks.cue import cue
+from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights, write_weights
 from graphface.nodes.masks.shown import CHANNELS, SKIN, mirror_image, shown
 from graphface.nodes.masks.upright import HEIGHT, WIDTH, upright_of
 from graphface.nodes.types import Image
@@ -137,3 +138,20 @@ class TestCue:
         landmarks = landmarks_at(30, 30, 10)
         landmarks.points[:] = np.nan
         assert_partition(cue(Image(np.full((60, 60, 3), 0.5, np.float32)), landmarks))
+
+
+class TestWeights:
+    def test_of_the_users_own(self):
+        """A network that has learned nothing takes everything on the grid for anything."""
+        photo, landmarks, _ = portrait()
+        nothing = LabelWeights({name: np.zeros_like(values) for name, values in shipped_weights().items()})
+        found = cue(photo, landmarks, nothing)
+        assert_partition(found)
+        np.testing.assert_allclose(found.face[90:110, 90:110], 1 / 3, atol=1e-5)
+
+    def test_from_a_file(self, tmp_path):
+        """A file as `graphface models labels` writes it does as well as the shipped one, being the same."""
+        photo, landmarks, _ = portrait()
+        write_weights(shipped_weights(), {}, tmp_path / "mine.safetensors")
+        found = cue(photo, landmarks, LabelWeights.from_file(tmp_path / "mine.safetensors"))
+        np.testing.assert_array_equal(found.face, cue(photo, landmarks).face)
