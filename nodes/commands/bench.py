@@ -128,7 +128,8 @@ def geometry(
     """Compare the geometries with the path-traced heads: landmarks, normals, depth, milliseconds."""
     from statistics import fmean, median
 
-    from graphface.nodes.commands.geometry_truth import LIGHTS, geometry_truth
+    from graphface.nodes.commands.geometry_truth import geometry_truth
+    from graphface.nodes.commands.heads import LIGHTS
     from graphface.nodes.morphable.library import named_model
     from graphface.terminal import print_table
 
@@ -381,13 +382,12 @@ def transfer(
     graph: Annotated[str, typer.Option(help="What --table draws: makeup or transfer.")] = "makeup",
 ) -> None:
     """Faithfulness, realism and predictability of makeup on pairs of photographs; with --table, their picture."""
-    from graphface.mapping import files_at
     from graphface.nodes.commands.transfer_criteria import Criteria, criteria
     from graphface.nodes.commands.transfer_table import transfer_table
     from graphface.nodes.image import write_picture
     from graphface.terminal import print_table
 
-    inputs, others = ([Path(f) for f in files_at(where)] for where in (photos, references))
+    inputs, others = _files(photos), _files(references)
     if table is not None:
         write_picture(transfer_table(inputs, others, graph=graph), table)
     rows: list[tuple[str, ...]] = []

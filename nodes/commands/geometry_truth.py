@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.commands.heads import heads_of
+from graphface.nodes.commands.heads import LIGHTS, heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
@@ -27,8 +27,6 @@ from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
 from graphface.nodes.morphable.morphable import average, morphable
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import Landmarks, Mesh
-
-LIGHTS = ("frontal", "left45", "right45", "top", "left80_hard", "ambient", "red_blue")
 
 _FAR = 1e3
 """Depths beyond this, in centimetres, are background."""

@@ -6,6 +6,9 @@ from pathlib import Path
 
 from graphface import UnreadableFile
 
+LIGHTS = ("frontal", "left45", "right45", "top", "left80_hard", "ambient", "red_blue")
+"""Under which each head was traced: LIGHT.png in its folder."""
+
 
 def heads_of(data: Path, holding: str = "meta.json") -> list[Path]:
     """The folders under `data`/truth that hold a file of that name, in order.

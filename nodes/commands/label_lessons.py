@@ -10,22 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import GraphfaceError, warn
-from graphface.nodes.commands.heads import heads_of
+from graphface.nodes.commands.heads import LIGHTS, heads_of
 from graphface.nodes.commands.segmentation_truth import true_labels
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.landmarks.network import network_pixels
 from graphface.nodes.masks.geometric import geometric
-from graphface.nodes.masks.network import class_chances, network
+from graphface.nodes.masks.network import network, window_chances
 from graphface.nodes.masks.upright import HEIGHT, WIDTH, Upright, upright_of
-from graphface.nodes.masks.window import window_about
 from graphface.nodes.morphable.facemesh import facemesh as build_mesh
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks
 
 Bytes = NDArray[np.uint8]
-
-LIGHTS = ("frontal", "left45", "right45", "top", "left80_hard", "ambient", "red_blue")
 
 ROOM, FINE = 4 / 3, 3
 """How much wider a lesson's picture is than the network's grid, and how many times finer that grid."""
@@ -129,10 +126,8 @@ def _person(photo: Image, landmarks: Landmarks) -> FloatArray:
     """What the teacher does not call backdrop, H x W: clothes and hands too."""
     import cv2
 
-    window = window_about(landmarks, photo.pixels.shape, 42)
-    part = photo.pixels[window.part]
-    chances = class_chances(network_pixels(part, photo.encoding), True)
+    window, chances = window_chances(photo, landmarks)
     person = np.zeros(photo.pixels.shape[:2], np.float32)
-    size = part.shape[1::-1]
+    size = (window.right - window.left, window.bottom - window.top)
     person[window.part] = 1 - cv2.resize(np.ascontiguousarray(chances[..., BACKDROP]), size)
     return person

@@ -8,7 +8,7 @@
 - `hair`: the detector, from the top of this very head;
 - `cue`: what a small network guesses (`label_network`, its weights in `label_weights`) of the upright head (`upright`,
   `shown`), in place of the detector and of the hand-set `prior`; `network`: the large one that taught it;
-- `start`, `smoothing`, `classify`: labels for every pixel;
+- `start`, `smoothing`, `connected`, `classify`: labels for every pixel;
 - `override`: what the user gives instead.
 
 The soft edge is `graphface.nodes.matting`; the whole is `graphs/segment.yaml`.

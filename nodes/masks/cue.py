@@ -15,6 +15,7 @@ from graphface.nodes.landmarks.network import network_pixels
 from graphface.nodes.masks.hair import Hair
 from graphface.nodes.masks.label_network import Weights, label_scores
 from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights
+from graphface.nodes.masks.prior import log_sum_exp
 from graphface.nodes.masks.shown import mirror_image, shown
 from graphface.nodes.masks.upright import Upright, upright_of
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
@@ -56,5 +57,4 @@ def label_chances(photo: Image, landmarks: Landmarks, grid: Upright, weights: We
     scores = label_scores(cells, weights)
     if mirrored:
         scores = np.float32(0.5) * (scores + label_scores(mirror_image(cells), weights)[:, ::-1])
-    raised = np.exp(scores - scores.max(axis=2, keepdims=True))
-    return np.asarray(raised / raised.sum(axis=2, keepdims=True), np.float32)
+    return np.asarray(np.exp(scores - log_sum_exp(scores)), np.float32)

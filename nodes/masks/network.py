@@ -20,12 +20,12 @@ from pydantic import Field
 from graphface import UsageError, node
 from graphface.assets import asset_path
 from graphface.nodes.landmarks.network import network_pixels
-from graphface.nodes.masks.classify import apart
-from graphface.nodes.masks.head import CHIN, EYE_LINE, pose_of
-from graphface.nodes.masks.prior import Layout, layout_of
+from graphface.nodes.masks.connected import apart, roots
+from graphface.nodes.masks.head import pose_of
+from graphface.nodes.masks.prior import Layout, layout_of, log_sum_exp
 from graphface.nodes.masks.weights import SELFIE_MULTICLASS
-from graphface.nodes.masks.window import window_about
-from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
+from graphface.nodes.masks.window import Window, window_about
+from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Mask, Segmentation
 
 SIDE = 256
 HAIR, SKIN = 1, slice(2, 4)
@@ -48,6 +48,7 @@ def network(
     photo: Image,
     landmarks: Landmarks,
     masks: HeadMasks,
+    hair_seeds: Mask | None = None,
     *,
     mirrored: bool = True,
     certainty: Annotated[float, Field(gt=0, le=20)] = 2.5,
@@ -58,7 +59,7 @@ def network(
     the conservative mask holds is face, whatever is painted on it; what does not hang on this head is background.
 
     Args:
-        photo: any size and encoding. masks: from the projected geometry.
+        photo: any size and encoding. masks: from the projected geometry. hair_seeds: what is hair for certain.
         mirrored: average with the labels of the mirrored picture: twice the time, half the jump under noise.
         certainty: the network's logits are multiplied by it. At 1 the middle of a head of hair is 0.92 hair, which as
             an alpha would let the background through.
@@ -66,22 +67,32 @@ def network(
     Raises:
         UsageError: LiteRT is not installed. AssetUnavailable: see `graphface.assets.asset_path`.
     """
-    window = window_about(landmarks, photo.pixels.shape, WORKING)
-    turns = _quarter_turns(landmarks)
-    seen = network_pixels(np.ascontiguousarray(photo.pixels[window.part]), photo.encoding)
-    chances = np.rot90(class_chances(np.rot90(seen, turns), mirrored, certainty), -turns)
     import cv2
 
-    size = (window.width, window.height)
-    small = np.asarray(cv2.resize(np.ascontiguousarray(chances), size, interpolation=cv2.INTER_LINEAR), np.float32)
+    window, chances = window_chances(photo, landmarks, mirrored=mirrored, certainty=certainty)
+    small = np.asarray(cv2.resize(chances, (window.width, window.height), interpolation=cv2.INTER_LINEAR), np.float32)
     hair, face = small[..., HAIR], small[..., SKIN].sum(axis=2)
     sure = window.shrunk(masks.conservative)
     face = face + sure * np.maximum(1 - hair - face, 0)
     layout = layout_of(landmarks, window)
     face, hair = _of_this_head(face, hair, layout, landmarks.interocular * window.scale)
+    if hair_seeds is not None:
+        certain = window.shrunk(hair_seeds)
+        face, hair = face * (1 - certain), np.maximum(hair, certain)
     shape = photo.pixels.shape
     face, hair = (window.enlarged(np.clip(labels, 0, 1), shape, beyond=0) for labels in (face, hair))
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
+
+
+def window_chances(
+    photo: Image, landmarks: Landmarks, *, mirrored: bool = True, certainty: float = 1.0
+) -> tuple[Window, FloatArray]:
+    """The part of a photo that the network is shown, and the probabilities 256 x 256 x 6 of that part."""
+    window = window_about(landmarks, photo.pixels.shape, WORKING)
+    turns = _quarter_turns(landmarks)
+    seen = network_pixels(np.ascontiguousarray(photo.pixels[window.part]), photo.encoding)
+    chances = np.rot90(class_chances(np.rot90(seen, turns), mirrored, certainty), -turns)
+    return window, np.ascontiguousarray(chances)
 
 
 def class_chances(pixels: FloatArray, mirrored: bool, certainty: float = 1.0) -> FloatArray:
@@ -94,16 +105,15 @@ def class_chances(pixels: FloatArray, mirrored: bool, certainty: float = 1.0) ->
     logits = _logits(seen)
     if mirrored:
         logits = np.float32(0.5) * (logits + _logits(seen[:, ::-1])[:, ::-1])
-    raised = np.exp(certainty * (logits - logits.max(axis=2, keepdims=True)))
-    return np.asarray(raised / raised.sum(axis=2, keepdims=True), np.float32)
+    logits = np.float32(certainty) * logits
+    return np.asarray(np.exp(logits - log_sum_exp(logits)), np.float32)
 
 
 def _of_this_head(face: FloatArray, hair: FloatArray, layout: Layout, unit: float) -> tuple[FloatArray, FloatArray]:
     """Without the skin and hair of other people, which stand beside this head and do not hang on it."""
-    head = (layout.head < 0) & (layout.high > CHIN + 0.5)
-    skin = (layout.outline < 0) | (layout.neck < 0) | head
+    hangs_on = roots(layout)
     beside = np.clip((np.abs(layout.right) - BESIDE[0]) / (BESIDE[1] - BESIDE[0]), 0, 1)
-    strays = face * apart(face, skin, unit), hair * apart(hair, head & (layout.high > EYE_LINE), unit)
+    strays = face * apart(face, hangs_on.skin, unit), hair * apart(hair, hangs_on.hair, unit)
     return face - beside * strays[0], hair - beside * strays[1]
 
 

@@ -67,12 +67,18 @@ def start_from_place(
 
 
 def start_from_cue(
-    face: FloatArray, hair: FloatArray, layout: Layout, sure: NDArray[np.bool_], response: FloatArray, weight: float
+    face: FloatArray,
+    hair: FloatArray,
+    layout: Layout,
+    sure: NDArray[np.bool_],
+    aggressive: FloatArray,
+    response: FloatArray,
+    weight: float,
 ) -> Start:
     """A cue's probabilities; what is neither face nor hair backdrop and clothes share by their place.
 
     Args:
-        face, hair: h x w.
+        face, hair: h x w. aggressive: beyond that mask nothing teaches face at first.
         response: what is hair for certain, where that was said by somebody else: it takes its share of first belief.
         weight: of what the cue says, beside `TRUST`.
     """
@@ -81,6 +87,7 @@ def start_from_cue(
     told = np.log(np.clip(np.dstack([face, hair, 1 - face - hair]), LEAST_CHANCE, 1))
     expected = np.asarray(weight * TRUST * np.dstack([told[..., :BACKDROP], told[..., BACKDROP:] + share]), np.float32)
     belief = np.exp(expected - log_sum_exp(expected))
+    belief[..., FACE] *= aggressive
     belief[..., HAIR] = 0
     belief *= ((1 - response) / np.maximum(belief.sum(axis=2), 1e-6))[..., None]
     belief[..., HAIR] = response

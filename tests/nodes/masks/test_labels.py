@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from portraits import BACKDROP, HAIR, SKIN, portrait, surface_of
 
-from graphface.nodes.masks.classify import apart, classify
+from graphface.nodes.masks.classify import classify
+from graphface.nodes.masks.connected import apart
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import Places, detector, hair, shiny, skin_weights

@@ -92,6 +92,16 @@ class TestOurPart:
         assert found.face[deep].min() > 0.95
         assert found.face[masks.aggressive < 0.01].max() < 0.05
 
+    def test_given_seeds_are_hair(self, seeing):
+        """What the user says is hair is hair, whatever the network sees there."""
+        seeing(by_colour)
+        photo, landmarks, truth = portrait()
+        seeds = np.zeros(truth.shape, np.float32)
+        seeds[90:110, 90:110] = 1
+        found = network(painted(truth), landmarks, masks_of(photo, landmarks), seeds)
+        assert found.hair[94:106, 94:106].min() > 0.95
+        assert found.face[94:106, 94:106].max() < 0.05
+
     def test_somebody_beside_is_background(self, seeing):
         """A second head that touches nothing of this one is not labelled."""
         seeing(by_colour)

@@ -22,7 +22,7 @@ from graphface.testing import check_node
 LANDMARKS = portrait(120)[1]
 LAYOUT = layout_of(LANDMARKS, window_about(LANDMARKS, (120, 120), 20))
 SHAPE = LAYOUT.outline.shape
-NOWHERE = np.zeros(SHAPE, bool)
+NOWHERE, EVERYWHERE = np.zeros(SHAPE, bool), np.ones(SHAPE, np.float32)
 
 
 def constant(*chances):
@@ -37,7 +37,7 @@ def told(labels):
 class TestStartFromCue:
     def test_backdrop_and_clothes_share(self):
         """What the cue gives to the background is backdrop above and clothes below."""
-        start = start_from_cue(*constant(0, 0), LAYOUT, NOWHERE, np.zeros(SHAPE, np.float32), 1.0)
+        start = start_from_cue(*constant(0, 0), LAYOUT, NOWHERE, EVERYWHERE, np.zeros(SHAPE, np.float32), 1.0)
         assert start.belief[0, 0, BACKDROP] > 2 * start.belief[0, 0, CLOTHES]
         assert start.belief[-1, SHAPE[1] // 2, CLOTHES] > 2 * start.belief[-1, SHAPE[1] // 2, BACKDROP]
         assert start.belief[..., BACKDROP:].sum(axis=2).min() > 0.9
@@ -45,20 +45,27 @@ class TestStartFromCue:
     def test_the_sure_mask_is_face(self):
         """Whatever the cue says, what is surely face teaches face."""
         sure = LAYOUT.outline < -0.1
-        start = start_from_cue(*constant(0, 1), LAYOUT, sure, np.ones(SHAPE, np.float32), 1.0)
+        start = start_from_cue(*constant(0, 1), LAYOUT, sure, EVERYWHERE, np.ones(SHAPE, np.float32), 1.0)
         assert (start.belief[sure][:, FACE] == 1).all()
+
+    def test_beyond_the_aggressive_mask(self):
+        """What cannot be face teaches no face at first, however sure the cue is of it."""
+        start = start_from_cue(*constant(1, 0), LAYOUT, NOWHERE, 0 * EVERYWHERE, 0 * EVERYWHERE, 1.0)
+        assert start.belief[..., FACE].max() == 0
 
     def test_hair_that_somebody_says(self):
         """Given hair takes its share of first belief, and what it leaves is shared as the cue has it."""
         response = np.full(SHAPE, 0.25, np.float32)
-        belief = start_from_cue(*constant(0.5, 0), LAYOUT, NOWHERE, response, 1.0).belief
+        belief = start_from_cue(*constant(0.5, 0), LAYOUT, NOWHERE, EVERYWHERE, response, 1.0).belief
         np.testing.assert_allclose(belief[..., HAIR], 0.25)
         np.testing.assert_allclose(belief[..., FACE] + belief[..., BACKDROP:].sum(axis=2), 0.75, atol=1e-3)
 
     @given(st.tuples(st.floats(0, 1), st.floats(0, 1)), st.floats(0, 1), st.floats(0, 4))
     def test_any_cue(self, chances, response, weight):
         """Cues of 0 and 1, any hair and any weight: finite scores, belief that sums to 1 at most."""
-        start = start_from_cue(*constant(*chances), LAYOUT, NOWHERE, np.full(SHAPE, response, np.float32), weight)
+        start = start_from_cue(
+            *constant(*chances), LAYOUT, NOWHERE, EVERYWHERE, np.full(SHAPE, response, np.float32), weight
+        )
         assert np.isfinite(start.expected).all()
         assert start.belief.min() >= 0
         assert start.belief.sum(axis=2).max() <= 1 + 1e-4
