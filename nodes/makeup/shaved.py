@@ -51,7 +51,7 @@ def shaved(
         contrast: standard deviation of the logarithm of intensity at which hair begins; at half as much again it is
             certain. (On 20 portraits cheeks have 0.005 to 0.09, beards 0.15 to 0.4, single wrinkles up to 0.2.)
         strand: what is broader is no strand; around: over which the deviation is taken; in inter-ocular distances.
-        cover: share of chin or upper lip that must be hair, or there is none.
+        cover: share of chin or upper lip that is hair up to which there is none; from a tenth more on it is certain.
         resolution: pixels per inter-ocular distance of the copy on which it is measured.
     """
     import cv2
@@ -85,11 +85,12 @@ def shaved(
     counts = (1 - np.clip(2 * smooth(parts, strand), 0, 1)) * small(skin)  # contours are no strands
     deviation = np.sqrt(smooth(fine * fine * counts, around) / np.maximum(smooth(counts, around), _LEAST_WEIGHT))
     hair = np.asarray(np.clip((deviation / np.float32(contrast) - 1) * 2, 0, 1) * (1 - parts), np.float32)
-    lip, chin = (_share(hair, patch(where) * counts) >= cover for where in (MOUSTACHE, CHIN))
-    if not (lip or chin):
+    lip, chin = (_surely(_share(hair, patch(where) * counts), cover) for where in (MOUSTACHE, CHIN))
+    if max(lip, chin) == 0:
         return skin
     # Beside a moustache alone, the folds of a smile are no beard.
-    hair *= np.clip(2 * smooth(patch(BEARD if chin else MOUSTACHE), 2 * around), 0, 1)
+    near = (surely * smooth(patch(where), 2 * around) for surely, where in ((lip, MOUSTACHE), (chin, BEARD)))
+    hair *= np.clip(2 * np.maximum(*near), 0, 1)
     without = skin.copy()
     shape = (columns.stop - columns.start, rows.stop - rows.start)
     without[window] *= 1 - np.asarray(cv2.resize(hair, shape, interpolation=cv2.INTER_LINEAR), np.float32)
@@ -99,6 +100,11 @@ def shaved(
 def _share(found: FloatArray, where: FloatArray) -> float:
     """Mean of what was found over some pixels, 0 without any."""
     return float((found * where).sum() / max(float(where.sum()), 1.0))
+
+
+def _surely(share: float, cover: float) -> float:
+    """0 up to `cover`, 1 from a tenth more on: no noise may bring a beard in at a stroke."""
+    return float(np.clip(10 * (share / cover - 1), 0, 1))
 
 
 def _box(landmarks: Landmarks, shape: tuple[int, ...]) -> tuple[slice, slice] | None:

@@ -1,5 +1,7 @@
 """Beards in a face that was labelled skin."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -50,6 +52,18 @@ class TestShaved:
         left = shaved(skin, bearded, parts, landmarks)
         assert left[nose:mouth].min() < 0.1
         assert left[chin_of(landmarks)].min() > 0.9
+
+    def test_no_beard_comes_at_a_stroke(self, portrait, rng):
+        """Between too little and enough hair on half a chin the mask goes in small steps, and all the way."""
+        shading, parts, landmarks = portrait
+        bearded = shading.copy()
+        middle = int(landmarks.points[17, 0])
+        bearded[int(landmarks.points[17, 1]) :, :middle] = strands(rng)[int(landmarks.points[17, 1]) :, :middle]
+        left = [shaved(np.ones_like(shading), bearded, parts, landmarks, cover=c) for c in np.linspace(0.3, 0.9, 241)]
+        steps = [float(np.abs(one - other).max()) for one, other in pairwise(left)]
+        assert max(steps) < 0.15
+        assert left[0].min() < 0.1
+        assert left[-1].min() > 0.9
 
     def test_smooth_skin_stays(self, portrait):
         """Without strands the very mask comes back."""
