@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     )
     from graphface.evaluate.evaluator import Evaluator, Result
     from graphface.evaluate.observe import Observer
+    from graphface.facade import Graph, load
     from graphface.fallback import GraphfaceWarning, warn
-    from graphface.graph.graph import Graph, load
     from graphface.registry import Pack, Registry
     from graphface.values.port_types import ArrayType, Lazy
 
@@ -50,7 +50,7 @@ _HOMES = {
     "Asset": "assets.asset",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
-    "Graph": "graph.graph",
+    "Graph": "facade",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
     "InputError": "errors",
@@ -66,7 +66,7 @@ _HOMES = {
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
-    "load": "graph.graph",
+    "load": "facade",
     "warn": "fallback",
 }
 

@@ -373,7 +373,7 @@ class TestFiles:
         for level in (0, 255, 0, 128):
             _write_mask(path, level)
             bound = graph.bind({"m": str(path)}, stat_shortcut=shortcut)
-            value = evaluator.run(graph, bound, graph.targets(["n"]))["n"]
+            value = evaluator.run(graph.request(bound, ["n"]))["n"]
             assert float(value.max()) == pytest.approx(level / 255)
 
 
