@@ -32,7 +32,7 @@ def demo(
     import os
 
     from graphface import Evaluator, MemoryTier, load
-    from graphface.nodes.image import write_picture
+    from graphface.nodes.io.image_write import write_picture
     from graphface.outputs import make_folder, write_output
     from graphface.terminal import ProgressBar, print_times, print_warnings
 

@@ -2,7 +2,7 @@
 
 - `head`: where cranium, ears and neck lie, told from the points of the face;
 - `geometric`: three masks from the projected geometry; `face` is the cheap soft mask that needs no more than that;
-- `window`, `features`, `texture`: colour and MR8 responses around the face, at working size;
+- `window`, `features`, `texture`: color and MR8 responses around the face, at working size;
 - `parzen`, `mixture`: densities and Gaussian mixtures, learnt on every photo anew; `likeness`: the swap between them;
 - `bare`: skin that goes on from the forehead, above the mesh;
 - `hair`: the detector, from the top of this very head;

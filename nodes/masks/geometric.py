@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
-from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
-from graphface.nodes.masks.head import Points, cranium, ears, neck, pose_of
+from graphface.nodes.head_shape import Points, cranium, ears, neck, pose_of
+from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Surface
 

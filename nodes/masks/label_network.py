@@ -18,8 +18,10 @@ from graphface.nodes.types import FloatArray
 WIDTHS = (16, 32, 48, 64)
 """Channels at each level, finest first."""
 
+
 MULTIPLICATIONS = 1 << 17
 """In one matrix product, as in `masks.mixture`: OpenBLAS starts no threads of its own for less."""
+
 
 Weights = Mapping[str, NDArray[np.float32]]
 
