@@ -23,7 +23,7 @@ from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_image
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.types import DirectionalLight, FloatArray, Image, Scene
-from graphface.outputs import make_folder
+from graphface.values.writing import make_folder
 
 if TYPE_CHECKING:
     from graphface import Evaluator, Graph

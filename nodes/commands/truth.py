@@ -36,7 +36,7 @@ from graphface.nodes.sh.fit import fit as fit_light
 from graphface.nodes.sh.render import render as render_light
 from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import DirectionalLight, Encoding, Image, Scene
-from graphface.outputs import make_folder
+from graphface.values.writing import make_folder
 
 LIGHTS = ("left45", "right45", "top", "left80_hard", "red_blue", "ambient")
 

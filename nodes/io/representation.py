@@ -25,7 +25,7 @@ def read_representation(path: Path) -> Representation:
     """
     from safetensors import SafetensorError, safe_open
 
-    from graphface.cache.codec import CodecError, decode
+    from graphface.values.codec import CodecError, decode
 
     path = Path(path)
     if not path.is_file():
@@ -51,8 +51,8 @@ def write_representation(representation: Representation, path: Path) -> None:
     from safetensors import SafetensorError
     from safetensors.numpy import save_file
 
-    from graphface.cache.codec import encode
-    from graphface.outputs import beside
+    from graphface.values.codec import encode
+    from graphface.values.writing import beside
 
     tensors, structure = encode(representation)
     words = {"format": _FORMAT, "structure": json.dumps(structure)}

@@ -18,7 +18,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import UsageError, node
-from graphface.assets import asset_path
+from graphface.assets.asset import asset_path
 from graphface.nodes.head_shape import pose_of
 from graphface.nodes.masks.connected import apart, roots
 from graphface.nodes.masks.prior import Layout, layout_of, log_sum_exp
@@ -72,7 +72,7 @@ def network(
             an alpha would let the background through.
 
     Raises:
-        UsageError: LiteRT is not installed. AssetUnavailable: see `graphface.assets.asset_path`.
+        UsageError: LiteRT is not installed. AssetUnavailable: see `graphface.assets.asset.asset_path`.
     """
     import cv2
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from graphface import UnreadableFile
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.commands.truth import LIGHTS, known_scene, relight_truth
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.render.irradiance import irradiance

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from graphface import UnreadableFile
-from graphface.cache.digest import digest_value
 from graphface.nodes.detail.split import split as split_detail
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.render.surroundings import surroundings
@@ -16,6 +15,7 @@ from graphface.nodes.representation.bundle import bundle
 from graphface.nodes.representation.given import given
 from graphface.nodes.sh.render import render as render_light
 from graphface.nodes.types import Camera, Image, Landmarks, Lighting, Mesh, Representation, Segmentation, Surface
+from graphface.values.digest import digest_value
 
 
 @pytest.fixture
