@@ -65,7 +65,7 @@ def import_model(
 ) -> None:
     """Bring a model of another format into graphface's."""
     from graphface.nodes.morphable.library import model_folder
-    from graphface.nodes.morphable.readers.__init__ import guess_kind, read_model
+    from graphface.nodes.morphable.readers import guess_kind, read_model
     from graphface.nodes.morphable.storage import save_model
 
     kind = kind or guess_kind(source)

@@ -30,7 +30,7 @@ def label_scores(cells: FloatArray, weights: Weights) -> FloatArray:
     """Scores (logits) of face, hair and background, float32 2h x 2w x 3.
 
     Args:
-        cells: h x w x C as of `masks.shown`, h and w multiples of 8.
+        cells: h x w x C as of `masks.network_input`, h and w multiples of 8.
     """
     levels = []
     for level in range(len(WIDTHS)):

@@ -1,7 +1,7 @@
 """Where face, hair and background are to be expected, before any pixel is looked at.
 
 Four classes: background is the backdrop beside the head and the clothes below it, since a dark suit says nothing about
-what stands behind dark hair. Scores are piecewise linear in distances from the solids of `masks.head`, in inter-ocular
+what stands behind dark hair. Scores are piecewise linear in distances from the solids of `head_shape`, in inter-ocular
 distances; the numbers were set by looking at portraits, and matter only where color and texture say little.
 """
 

@@ -12,7 +12,7 @@ from faces import grid_model
 
 from graphface import UnreadableFile, UsageError
 from graphface.nodes.morphable.builtin import builtin_model
-from graphface.nodes.morphable.readers.__init__ import guess_kind, read_model
+from graphface.nodes.morphable.readers import guess_kind, read_model
 from graphface.nodes.morphable.readers.assemble import boundary_loops, closed
 from graphface.nodes.morphable.readers.landmark_file import read_landmark_numbers
 
