@@ -188,7 +188,7 @@ class TestHostile:
         import json
         import zlib
 
-        from graphface.nodes import image_text
+        from graphface.nodes.io import image_text
 
         bomb = zlib.compress(json.dumps({KEY: "a" * (image_text.MAX_TEXT + 100)}).encode(), 9)
         plain = image_text.packed

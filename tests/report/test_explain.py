@@ -121,7 +121,7 @@ class TestReasons:
         """A file is an input by its content: written anew with the same it has not changed, with other it has."""
         import numpy as np
 
-        from graphface.nodes.image import write_picture
+        from graphface.nodes.io.image_write import write_picture
 
         node = "{use: image.encode, in: {photo: photo}, with: {encoding: srgb}}"
         text = f"graphface: 1\ninputs: {{photo: Image}}\nnodes: {{n: {node}}}\n"

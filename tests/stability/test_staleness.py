@@ -384,6 +384,6 @@ def _with_mask(registry: Registry) -> Registry:
 
 
 def _write_mask(path: Path, level: int) -> None:
-    from graphface.nodes.image import write_picture
+    from graphface.nodes.io.image_write import write_picture
 
     write_picture(np.full((8, 8), level, np.uint8), path)
