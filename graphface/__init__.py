@@ -14,7 +14,7 @@ import importlib
 import os.path
 from typing import TYPE_CHECKING, Any
 
-from graphface.node import Cosmetic, Needs, node
+from graphface.node import Cosmetic, Formerly, Needs, node
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
@@ -76,6 +76,7 @@ __all__ = [
     "Cosmetic",
     "DocumentError",
     "Evaluator",
+    "Formerly",
     "Graph",
     "GraphfaceError",
     "GraphfaceWarning",

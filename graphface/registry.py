@@ -42,8 +42,9 @@ class Pack:
             where a family is spread over several.
         types: name used in graph files to "module:attribute".
         graphs: the package whose folder holds shipped graph files.
-        assets: "module:attribute" of tuples of `graphface.assets.asset.Asset`, the files that its operators fetch, separated
-            by spaces.
+        assets: "module:attribute" of tuples of `graphface.Asset`, the files that its operators fetch, separated by spaces.
+        formerly: old operator name to the present one, where the operator has moved to another family; within a family
+            `formerly` of `@node` is enough.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Pack:
     types: Mapping[str, str] = field(default_factory=dict)
     graphs: str = ""
     assets: str = ""
+    formerly: Mapping[str, str] = field(default_factory=dict)
 
 
 class Registry:
@@ -82,12 +84,12 @@ class Registry:
         return sorted({operator.name for f in functions if (operator := operator_of(f)) is not None})
 
     def operator(self, name: str) -> Operator:
-        """The operator called `name`.
+        """The operator called `name`, or that was called so before: its own name then is another.
 
         Raises:
             UnknownOperator: with the nearest names.
         """
-        found = self._added.get(name) or self._family(name.rpartition(".")[0]).get(name)
+        found = self._named(name) or self._formerly_named(name)
         if found is None:
             raise UnknownOperator(name, self.names())
         return found
@@ -166,6 +168,16 @@ class Registry:
             if name in pack.types:
                 return port_type(_attribute(pack.types[name]))
         raise UnknownType(name, self.type_names())
+
+    def _named(self, name: str) -> Operator | None:
+        return self._added.get(name) or self._family(name.rpartition(".")[0]).get(name)
+
+    def _formerly_named(self, name: str) -> Operator | None:
+        """The operator that had this name before, importing its family and that of the name."""
+        at_hand = [*self._added.values(), *self._family(name.rpartition(".")[0]).values()]
+        found = next((operator for operator in at_hand if name in operator.formerly), None)
+        moved = (pack.formerly[name] for pack in self._packs if name in pack.formerly)
+        return found or next((operator for new in moved if (operator := self._named(new)) is not None), None)
 
     def _family(self, family: str) -> dict[str, Operator]:
         """The operators of one family that packs declare, importing only the modules of that family."""

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.metadata import entry_points
 from typing import Any
 
@@ -61,7 +64,8 @@ def _guarded(arguments: list[str] | None) -> int:
     from graphface.errors import GraphfaceError, UsageError
 
     try:
-        result = build()(arguments, standalone_mode=False)
+        with _spoken_warnings():
+            result = build()(arguments, standalone_mode=False)
         if result == _INTERRUPTED:  # some versions of typer turn the interrupt into this exit code
             raise KeyboardInterrupt
     except GraphfaceError as error:
@@ -96,6 +100,25 @@ def _message(error: Exception) -> str:
     if len(error.failures) > 5:
         told.append(f"and {len(error.failures) - 5} more")
     return "\n".join(told)
+
+
+@contextmanager
+def _spoken_warnings() -> Iterator[None]:
+    """Every `GraphfaceWarning` outside a node as one line on standard error; other warnings stay as they are."""
+    from graphface.fallback import GraphfaceWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("default", GraphfaceWarning)
+        otherwise = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+            if issubclass(category, GraphfaceWarning):
+                print(f"warning: {message}", file=sys.stderr)
+            else:
+                otherwise(message, category, *where, **more)
+
+        warnings.showwarning = show
+        yield
 
 
 def _say(message: str) -> None:

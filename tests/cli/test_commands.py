@@ -8,6 +8,15 @@ import pytest
 
 from graphface import __version__
 
+RENAMED = """
+from typing import Annotated
+from graphface import Formerly, node
+
+@node("mine.new", formerly=("mine.old",))
+def new(a: float, *, by: Annotated[float, Formerly("factor")] = 2) -> float:
+    \"\"\"Multiply.\"\"\"
+    return a * by
+"""
 HEAVY = ("numpy", "networkx", "cv2", "scipy", "yaml", "PIL", "skimage", "sklearn")
 
 
@@ -159,3 +168,31 @@ class TestEveryCommand:
         said = graphface("schema")
         assert said.code == 0
         assert json.loads(said.out)
+
+
+class TestOldNames:
+    @pytest.fixture
+    def renamed(self, tmp_path: Path) -> Path:
+        path = tmp_path / "renamed.py"
+        path.write_text(RENAMED)
+        return path
+
+    def test_graph(self, graphface: Callable[..., object], renamed: Path, tmp_path: Path) -> None:
+        """Old names in a file and in a flag are a line each on standard error, with their place."""
+        graph = tmp_path / "g.yaml"
+        graph.write_text(
+            "graphface: 1\ninputs: {x: {type: float, default: 2}}\nnodes: {n: {use: mine.old, in: {a: x}}}\n"
+        )
+        said = graphface("show", graph, "--plugin", renamed, "--set", "n.factor=3")
+        assert said.code == 0
+        assert said.err.splitlines() == [
+            f"warning: {graph}:3:18: operator 'mine.old' is now called 'mine.new'",
+            "warning: --set:1:1: parameter 'factor' of mine.new is now called 'by'",
+        ]
+
+    def test_nodes(self, graphface: Callable[..., object], renamed: Path) -> None:
+        """`nodes` shows an operator under its old name, and what its old names are."""
+        said = graphface("nodes", "mine.old", "--plugin", renamed)
+        assert said.code == 0
+        assert said.err == "warning: operator 'mine.old' is now called 'mine.new'\n"
+        assert "old names: mine.old, factor (now by)" in said.out
