@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
     from graphface.errors import (
+        DeclarationError,
         DocumentError,
         GraphfaceError,
         InputError,
@@ -34,7 +35,8 @@ if TYPE_CHECKING:
     from graphface.evaluate.observe import Observer
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.graph.graph import Graph, load
-    from graphface.registry import Pack, Registry
+    from graphface.packs import Pack
+    from graphface.registry import Registry
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -48,6 +50,7 @@ if not os.path.isdir(os.path.join(__path__[0], "nodes")) and os.path.isdir(os.pa
 _HOMES = {
     "ArrayType": "values.port_types",
     "Asset": "assets.asset",
+    "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
     "Graph": "graph.graph",
@@ -58,7 +61,7 @@ _HOMES = {
     "MemoryTier": "cache.memory",
     "NodeError": "errors",
     "Observer": "evaluate.observe",
-    "Pack": "registry",
+    "Pack": "packs",
     "Registry": "registry",
     "Result": "evaluate.evaluator",
     "RunError": "errors",
@@ -74,6 +77,7 @@ __all__ = [
     "ArrayType",
     "Asset",
     "Cosmetic",
+    "DeclarationError",
     "DocumentError",
     "Evaluator",
     "Formerly",

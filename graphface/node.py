@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from graphface.declaration import Signature, parameter_model, read_signature
 from graphface.values.port_types import PortType, is_lazy, output_fields, port_type
 
 if TYPE_CHECKING:
@@ -138,15 +139,12 @@ class Operator:
     @cached_property
     def parameters(self) -> type[BaseModel]:
         """The pydantic model of the keyword-only arguments; unknown names are refused."""
-        from pydantic import ConfigDict, create_model
-
         fields: dict[str, Any] = {}
         for argument in self._signature.parameters.values():
             if argument.kind is argument.KEYWORD_ONLY:
                 default = ... if argument.default is argument.empty else argument.default
                 fields[argument.name] = (self._hints[argument.name], default)
-        config = ConfigDict(extra="forbid", validate_default=True, allow_inf_nan=False)
-        return create_model(f"{self.name} parameters", __config__=config, **fields)
+        return parameter_model(self.name, self.function, fields)
 
     @cached_property
     def cosmetic(self) -> frozenset[str]:
@@ -165,17 +163,25 @@ class Operator:
         """The inputs and parameters that the `needs` rule asks to see."""
         return () if self.needs is None else tuple(inspect.signature(self.needs).parameters)
 
-    @cached_property
+    def check(self) -> None:
+        """Read the declaration, as everything else here does when it is first asked for.
+
+        Raises:
+            DeclarationError: the function cannot be an operator as it is.
+        """
+        _ = self._declaration, self.parameters
+
+    @property
     def _signature(self) -> inspect.Signature:
-        return inspect.signature(self.function)
+        return self._declaration[0]
+
+    @property
+    def _hints(self) -> dict[str, Any]:
+        return self._declaration[1]
 
     @cached_property
-    def _hints(self) -> dict[str, Any]:
-        hints = typing.get_type_hints(self.function, include_extras=True)
-        missing = [n for n in (*self._signature.parameters, "return") if n not in hints]
-        if missing:
-            raise TypeError(f"operator {self.name!r}: no annotation for {', '.join(missing)}")
-        return hints
+    def _declaration(self) -> Signature:
+        return read_signature(self.name, self.function, self.needs)
 
 
 def _former_names(annotation: Any) -> Iterator[str]:

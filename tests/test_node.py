@@ -91,7 +91,7 @@ class TestDeclaration:
     def test_renamed(self) -> None:
         """Old names of ports and parameters are known, wherever in the annotation they stand."""
 
-        @node("x.y")
+        @node("x.y", needs=needs)
         def many(
             a: Annotated[float, Formerly("first", "one")],
             b: Lazy[Annotated[float, Formerly("second")]],
@@ -103,18 +103,6 @@ class TestDeclaration:
         found = operator_of(many)
         assert found is not None
         assert found.renamed == {"first": "a", "one": "a", "second": "b", "third": "c"}  # `a` is in use
-
-    def test_no_annotation(self) -> None:
-        """A function without annotations cannot be an operator; the message names what is missing."""
-
-        @node("x.y")
-        def bare(a, *, b: int = 1):  # type: ignore[no-untyped-def]
-            return a
-
-        found = operator_of(bare)
-        assert found is not None
-        with pytest.raises(TypeError, match=r"'x\.y'.*a, return"):
-            _ = found.inputs
 
 
 class TestParameters:

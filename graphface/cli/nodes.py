@@ -28,4 +28,4 @@ def nodes(
             warn(f"operator {name!r} is now called {operator.name!r}")
         print_operator(operator, [other.name for other in registry.alternatives(operator)])
     else:
-        print_operators([registry.operator(n) for n in registry.names()])
+        print_operators(registry.operators())

@@ -18,8 +18,7 @@ _GRAPH_FILE = r"\.ya?ml$"
 
 def graph_schema(registry: Registry) -> dict[str, Any]:
     """The schema (draft 2020-12) of a graph file that uses the registry's operators and types."""
-    operators = [registry.operator(name) for name in registry.names()]
-    node = _node_schema(operators)
+    node = _node_schema(registry.operators())
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "graphface graph",

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from graphface import fallback
+from graphface.code_line import declaration_line, line_in_operator
 from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError
 from graphface.evaluate.observe import hooks
 from graphface.graph.wiring import Argument, Ref, Step
@@ -126,7 +127,9 @@ class Caller:
         """A failure with everything that helps to find its cause."""
         reason = str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"
         shown = {port: describe(value) for port, value in arguments.items()}
-        failure = NodeError(step.name, step.operator.name, step.place, reason, shown, self._files_behind(step))
+        function = step.operator.function
+        code = declaration_line(function) if error.__traceback__ is None else line_in_operator(error, function)
+        failure = NodeError(step.name, step.operator.name, step.place, reason, shown, self._files_behind(step), code)
         failure.__cause__ = error
         return failure
 

@@ -9,7 +9,6 @@ Loading checks everything; what is left to fail in a run are the operators thems
 from __future__ import annotations
 
 import gc
-import importlib.util
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -81,12 +80,7 @@ def load(
 
 def shipped_folders(registry: Registry) -> list[Path]:
     """The folders of graph files that installed packs offer."""
-    folders = []
-    for package in registry.graph_packages():
-        spec = importlib.util.find_spec(package)
-        if spec is not None and spec.submodule_search_locations:
-            folders.append(Path(spec.submodule_search_locations[0]))
-    return folders
+    return registry.graph_folders()
 
 
 class Graph:

@@ -20,7 +20,7 @@ from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
 from graphface.document.located import Place
 from graphface.document.references import Target
-from graphface.errors import DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
+from graphface.errors import DeclarationError, DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
 from graphface.fallback import warn
 from graphface.graph.present_names import with_present_names
 from graphface.node import InputPort, Operator
@@ -123,6 +123,7 @@ class _Wirer:
         self._registry = registry
         self._problems: list[Problem] = list(composition.problems)
         self._operators: dict[str, Operator | None] = {}
+        self._unusable: dict[str, str] = {}
         self._bare: dict[str, dict[str, Any]] = {}
         self._nodes = composition.nodes
 
@@ -162,15 +163,19 @@ class _Wirer:
 
     def _operator(self, node: FlatNode) -> Operator | None:
         name = node.use.value
+        nearest: list[str] = []
         if name not in self._operators:
+            self._operators[name] = None
             try:
-                self._operators[name] = self._registry.operator(name)
+                operator = self._registry.operator(name)
+                operator.check()
+                self._operators[name] = operator
             except UnknownOperator as error:
-                self._operators[name] = None
-                self._problem(f"unknown operator {name!r}", node.use.place, error.nearest)
-                return None
-        elif self._operators[name] is None:
-            self._problem(f"unknown operator {name!r}", node.use.place)
+                self._unusable[name], nearest = error.reason, error.nearest
+            except DeclarationError as error:
+                self._unusable[name] = str(error)
+        if name in self._unusable:
+            self._problem(self._unusable[name], node.use.place, nearest)
         return self._operators[name]
 
     def _present(self, operators: Mapping[str, Operator | None]) -> dict[str, FlatNode]:
