@@ -32,8 +32,8 @@ class CodeLine:
         return f"{self.file}:{self.line}, in {self.function}\n    {self.text}"
 
 
-def line_in_operator(error: BaseException, function: Callable[..., Any]) -> CodeLine | None:
-    """The deepest line of the traceback in the files of an operator's distribution; None where it has none there."""
+def own_line(error: BaseException, function: Callable[..., Any]) -> CodeLine | None:
+    """The deepest line of a traceback in the files of a function's own distribution; None where it has none there."""
     return _deepest(error, _own_files(function))
 
 

@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from graphface import fallback
-from graphface.code_line import declaration_line, line_in_operator
+from graphface.code_line import declaration_line, own_line
 from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError
-from graphface.evaluate.observe import hooks
+from graphface.evaluate.observe import Hooks
 from graphface.graph.wiring import Argument, Ref, Step
 from graphface.values.frozen import describe, first_non_finite
 
@@ -41,6 +41,7 @@ class Caller:
         keys: Sequence[bytes],
         done: Mapping[bytes, Any],
         declined: Mapping[bytes, frozenset[str]],
+        hooks: Hooks,
     ) -> None:
         self._evaluator = evaluator
         self._graph = graph
@@ -49,8 +50,8 @@ class Caller:
         self._keys = keys
         self._done = done
         self._declined = declined
-        self._on_start = hooks(evaluator.observers, "node_started")
-        self._observed = bool(evaluator.observers)
+        self._on_start = hooks.node_started
+        self._observed = hooks.any
 
     def evaluate(self, slot: int) -> Outcome:
         """Call one step or load one input. Raises nothing: a worker that ended silently would leave the run waiting."""
@@ -128,7 +129,7 @@ class Caller:
         reason = str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"
         shown = {port: describe(value) for port, value in arguments.items()}
         function = step.operator.function
-        code = declaration_line(function) if error.__traceback__ is None else line_in_operator(error, function)
+        code = declaration_line(function) if error.__traceback__ is None else own_line(error, function)
         failure = NodeError(step.name, step.operator.name, step.place, reason, shown, self._files_behind(step), code)
         failure.__cause__ = error
         return failure

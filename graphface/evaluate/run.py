@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 from graphface.cache.memory import MISSING
 from graphface.errors import NodeError, RunFailed
 from graphface.evaluate.calling import Caller, Outcome, take
-from graphface.evaluate.observe import Record, State, hooks
+from graphface.evaluate.observe import Hooks, Record, State
 from graphface.graph.needs import declined_with
 from graphface.graph.wiring import Ref, Step
 from graphface.values.frozen import freeze
@@ -63,12 +63,13 @@ class Run:
         self._spent: list[bytes] = []
         self._failed: dict[bytes, NodeError | None] = {}
         self._records: list[Record] = []
-        self._on_finish = hooks(evaluator.observers, "node_finished")
-        self._caller = Caller(evaluator, graph, self._bound, self._keys, self._done, self._declined)
+        self._hooks = Hooks(evaluator.observers)
+        self._on_finish = self._hooks.node_finished
+        self._caller = Caller(evaluator, graph, self._bound, self._keys, self._done, self._declined, self._hooks)
 
     def go(self) -> tuple[dict[str, Any], list[Record]]:
         """The outputs by name, and what became of every node."""
-        for hook in hooks(self._evaluator.observers, "run_started"):
+        for hook in self._hooks.run_started:
             hook(self._graph.steps_behind(self._targets.values()))
         try:
             self._wanted += [ref.slot for ref in self._targets.values()]
@@ -78,7 +79,7 @@ class Run:
             else:
                 self._loop_threads()
         finally:
-            for hook in hooks(self._evaluator.observers, "run_finished"):
+            for hook in self._hooks.run_finished:
                 hook(self._records)
         values = {}
         for name, ref in self._targets.items():
