@@ -18,8 +18,8 @@ from typing import Any
 
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
-from graphface.document.graph_files import shipped_folders
 from graphface.document.located import scalar
+from graphface.document.present_names import with_present_names
 from graphface.node import Operator
 from graphface.place import Place
 from graphface.registry import Registry
@@ -65,9 +65,10 @@ def _lines(composition: Composition, registry: Registry, origins: bool) -> Itera
 
 
 def _node_lines(node: FlatNode, operator: Operator, noted: Noted) -> Iterator[str]:
+    node = with_present_names(node, operator, {})
     yield f"  {node.name}:"
     yield noted(f"    use: {_word(operator.name)}", node.use.place)
-    wires = {port: wire for port, wire in node.wires.items() if port in operator.inputs}
+    wires = {port: wire for port, wire in node.wires.items() if port in operator.inputs and not wire.unplugged}
     if wires:
         yield f"    in: {{{', '.join(f'{port}: {_wire(wire)}' for port, wire in wires.items())}}}"
     settings = {name: s for name, s in node.settings.items() if name in operator.parameters.model_fields}
@@ -99,7 +100,7 @@ def _default(composition: Composition, registry: Registry, declared: str, defaul
     file = (named_in.parent / value).resolve()
     if named_in.parent.resolve() == top.parent.resolve() or not file.is_file():
         return value
-    roots = [folder.resolve() for folder in (top.parent, *shipped_folders(registry))]
+    roots = [folder.resolve() for folder in (top.parent, *registry.graph_folders())]
     return next((file.relative_to(root).as_posix() for root in roots if file.is_relative_to(root)), value)
 
 
