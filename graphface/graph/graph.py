@@ -12,7 +12,7 @@ import gc
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +37,11 @@ from graphface.values.port_types import PortType
 if TYPE_CHECKING:
     import networkx
 
-_shared = Evaluator(memory=MemoryTier())
+
+@cache
+def _shared() -> Evaluator:
+    """The evaluator of runs that name none: one per process."""
+    return Evaluator(memory=MemoryTier())
 
 
 def load(
@@ -117,14 +121,15 @@ class Graph:
 
         Args:
             outputs: names of declared outputs, or any "node" or "node.field"; all declared ones by default.
-            evaluator: where to run and what to keep; by default one per process with a memory tier.
+            evaluator: where to run and what to keep; by default one per process, with a memory tier of the size
+                that the user has set (`graphface.settings`).
             inputs: arrays, values or paths by input name. One called `outputs` or `evaluator` goes another way:
                 `evaluator.run(graph, graph.bind({"outputs": value}), graph.targets())`.
 
         Raises:
             InputError, UnreadableFile: an input is missing or does not fit. RunFailed: a node failed.
         """
-        evaluator = evaluator if evaluator is not None else _shared
+        evaluator = evaluator if evaluator is not None else _shared()
         return evaluator.run(self, self.bind(inputs), self.targets(outputs))
 
     def bind(self, given: Mapping[str, Any], *, stat_shortcut: bool = True) -> dict[str, Bound]:

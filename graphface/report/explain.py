@@ -161,7 +161,7 @@ def _lost(before: Identity, evaluator: Evaluator) -> str:
         return "it failed when it last ran"
     if evaluator.memory is None and evaluator.disk is None:
         return "no cache in use"
-    evicted = evaluator.memory is not None and bytes.fromhex(before.key) in evaluator.memory.evicted
+    evicted = evaluator.memory is not None and evaluator.memory.was_evicted(bytes.fromhex(before.key))
     if evicted or (evaluator.disk is not None and before.stored):
         return "evicted"
     return "not kept (too large for the cache, or nothing that it can hold)"
