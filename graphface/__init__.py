@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     )
     from graphface.evaluate.evaluator import Evaluator, Result
     from graphface.evaluate.observe import Observer
+    from graphface.facade import Graph, load
     from graphface.fallback import GraphfaceWarning, warn
-    from graphface.graph.graph import Graph, load
     from graphface.packs import Pack
     from graphface.registry import Registry
     from graphface.values.port_types import ArrayType, Lazy
@@ -53,7 +53,7 @@ _HOMES = {
     "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
-    "Graph": "graph.graph",
+    "Graph": "facade",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
     "InputError": "errors",
@@ -69,7 +69,7 @@ _HOMES = {
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
-    "load": "graph.graph",
+    "load": "facade",
     "warn": "fallback",
 }
 

@@ -23,7 +23,7 @@ from graphface.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
+    from graphface.facade import Graph
 
 
 def ablate(
@@ -133,7 +133,7 @@ def read_cases(pairs: list[str]) -> list[Mapping[str, Any]]:
 def _truth(graph: Graph, declared: Any, case: Mapping[str, Any], where: Path) -> Any:
     """The true output of a case, read as the output's type."""
     from graphface.errors import UnreadableFile, UsageError
-    from graphface.graph.inputs import reader_of
+    from graphface.values.port_types import reader_of
 
     reader = reader_of(declared)
     if reader is None:

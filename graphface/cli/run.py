@@ -27,8 +27,9 @@ from graphface.cli.options import (
 
 if TYPE_CHECKING:
     from graphface.evaluate.evaluator import Evaluator
-    from graphface.evaluate.observe import Record
-    from graphface.graph.graph import Graph
+    from graphface.evaluate.observe import Observer
+    from graphface.facade import Graph
+    from graphface.record import Record
 
 
 def run(
@@ -119,34 +120,35 @@ def run_once(
     """One run, its outputs written when all of them are there; what became of every node.
 
     Args:
-        evaluator: gets observers for this run. history: the cache folder.
+        history: the cache folder, beside which the run is remembered.
     """
-    from graphface.document.provenance import provenance
     from graphface.report.history import History, Remember
     from graphface.report.terminal import ProgressBar
     from graphface.report.trace import Trace
     from graphface.values.writing import check_folder, check_output, write_output
 
     files = output_files(graph, output, given)
-    targets = graph.targets(files)
-    bound = graph.bind(given)
+    asked = graph.request(given, files)
+    types = {name: graph.type_of(target) for name, target in asked.targets.items()}
     for name, path in files.items():
-        check_output(path, graph.type_of(targets[name]))
+        check_output(path, types[name])
     _check_kept(files.values(), given.values())
     if trace is not None:
         check_folder(trace)
     tracer = Trace(peaks=peaks)
     with ProgressBar() as bar:
-        evaluator.observers = (bar,) if trace is None else (bar, tracer)
+        observers: list[Observer] = [bar]
+        if trace is not None:
+            observers.append(tracer)
         if evaluator.disk is not None:
-            evaluator.observers += (Remember(History.beside(history), graph, bound, targets, evaluator.disk),)
+            observers.append(Remember(History.beside(history), evaluator.disk))
         try:
-            result = evaluator.run(graph, bound, targets)
+            result = evaluator.run(asked, observers)
         finally:
             if trace is not None:
-                tracer.write(trace, graph, bound)
+                tracer.write(trace)
     for name, path in files.items():
-        write_output(result[name], graph.type_of(targets[name]), path, text=provenance(graph))
+        write_output(result[name], types[name], path, text=graph.provenance())
     return result.records
 
 
@@ -161,7 +163,6 @@ def run_map(
     Raises:
         UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
     """
-    from graphface.document.provenance import provenance
     from graphface.evaluate.mapping import MapFailed, read_maps, run_over
     from graphface.report.terminal import ProgressBar
     from graphface.values.writing import check_folder, check_output, write_output
@@ -182,7 +183,7 @@ def run_map(
                 continue
             for name, path in output_files(graph, output, made.inputs).items():
                 check_folder(path)
-                write_output(made.result[name], graph.type_of(targets[name]), path, text=provenance(graph))
+                write_output(made.result[name], graph.type_of(targets[name]), path, text=graph.provenance())
             records += made.result.records
     if failed:
         raise MapFailed(failed, total)

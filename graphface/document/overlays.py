@@ -81,7 +81,7 @@ def lay_over(node: NodeEntry, overlay: NodeEntry) -> None:
     """Lay a partial node over a node; one removed before comes back only where the overlay says what it is.
 
     What the overlay states comes last among the node's wires and settings: of an old and a new name of the same port or
-    parameter the last one applies (`graphface.graph.present_names`).
+    parameter the last one applies (`graphface.document.present_names`).
     """
     if overlay.removed:
         node.removed = True

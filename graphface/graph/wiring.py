@@ -3,118 +3,34 @@
 Everything wrong is found in one pass and reported together: unknown operators, ports and parameters, values out of
 range, a mask plugged into a picture, a required port left open, a cycle. After this nothing about the graph can fail
 but the operators themselves.
-
-A graph's inputs and its steps share one numbering, the *slot*: inputs come first, then the steps in an order where
-every step stands after what it depends on. Evaluation works on slots alone, so a node costs list indexing and no names.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
-from graphface.document.located import Place
 from graphface.document.references import Target
 from graphface.errors import DeclarationError, DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
-from graphface.fallback import warn
-from graphface.graph.present_names import with_present_names
+from graphface.graph.structure import Argument, GraphInput, Ref, Step, Structure, field_type
 from graphface.node import InputPort, Operator
+from graphface.place import Place
 from graphface.registry import Registry
 from graphface.values.port_types import ListOf, PortType, output_fields
 
 
-@dataclass(frozen=True)
-class Ref:
-    """A slot, and the fields taken of its value."""
-
-    slot: int
-    fields: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Argument:
-    """What is plugged into one port."""
-
-    port: str
-    refs: tuple[Ref, ...]
-    is_list: bool
-    lazy: bool
-
-
-@dataclass(frozen=True)
-class GraphInput:
-    slot: int
-    name: str
-    type: PortType
-    default: Setting | None
-    doc: str
-    place: Place
-
-
-@dataclass(eq=False)
-class Step:
-    """One node, ready to run.
-
-    `eager` and `lazy` are the slots behind its ports; `absent` are the ports that get None: nothing is plugged in.
-    `plain` pairs ports with slots where every port is eager and takes one whole value: the common, fast case.
-    """
-
-    slot: int
-    name: str
-    operator: Operator
-    arguments: tuple[Argument, ...]
-    parameters: dict[str, Any]
-    settings: dict[str, Setting]
-    place: Place
-    eager: tuple[int, ...] = field(init=False)
-    lazy: tuple[int, ...] = field(init=False)
-    plain: tuple[tuple[str, int], ...] | None = field(init=False)
-    absent: dict[str, None] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.eager = tuple(dict.fromkeys(r.slot for a in self.arguments if not a.lazy for r in a.refs))
-        self.lazy = tuple(dict.fromkeys(r.slot for a in self.arguments if a.lazy for r in a.refs))
-        simple = all(len(a.refs) == 1 and not (a.lazy or a.is_list or a.refs[0].fields) for a in self.arguments)
-        self.absent = {port: None for port in self.operator.needs_none if all(a.port != port for a in self.arguments)}
-        self.plain = tuple((a.port, a.refs[0].slot) for a in self.arguments) if simple and not self.absent else None
-
-
-@dataclass(frozen=True)
-class Wiring:
-    inputs: dict[str, GraphInput]
-    steps: list[Step]
-    slots: dict[str, int]
-    outputs: dict[str, Ref]
-
-
-def wire(composition: Composition, registry: Registry) -> Wiring:
+def wire(composition: Composition, registry: Registry) -> Structure:
     """Look up, check and order a flat graph.
 
     Raises:
         DocumentError: with every problem found.
     """
     return _Wirer(composition, registry).run()
-
-
-def field_type(annotation: PortType, fields: tuple[str, ...]) -> PortType | None:
-    """The type of `value.field.field...`, or None where an alternative has no such field.
-
-    A field of a value that may be None may be None too: there is nothing to take it from.
-    """
-    current = annotation
-    for name in fields:
-        offered = [output_fields(a) if isinstance(a, type) else {} for a in current.alternatives]
-        if not all(name in ports for ports in offered):
-            return None
-        atoms = dict.fromkeys(atom for ports in offered for atom in ports[name].alternatives)
-        optional = current.optional or any(ports[name].optional for ports in offered)
-        current = PortType(tuple(atoms), optional)
-    return current
 
 
 class _Wirer:
@@ -125,21 +41,19 @@ class _Wirer:
         self._operators: dict[str, Operator | None] = {}
         self._unusable: dict[str, str] = {}
         self._bare: dict[str, dict[str, Any]] = {}
-        self._nodes = composition.nodes
 
-    def run(self) -> Wiring:
+    def run(self) -> Structure:
         inputs = {
             name: GraphInput(slot, name, self._input_type(entry), entry.default, entry.doc, entry.place)
             for slot, (name, entry) in enumerate(self._graph.inputs.items())
         }
         operators = {name: self._operator(node) for name, node in self._graph.nodes.items()}
-        self._nodes = self._present(operators)
         types = {name: entry.type for name, entry in inputs.items()}
         types |= {name: op.output for name, op in operators.items() if op is not None}
         slots = {name: slot for slot, name in enumerate([*inputs, *self._order(operators)])}
         steps = []
         for name in list(slots)[len(inputs) :]:
-            operator, node = operators[name], self._nodes[name]
+            operator, node = operators[name], self._graph.nodes[name]
             if operator is None:
                 continue
             order = list(operator.inputs)
@@ -152,7 +66,7 @@ class _Wirer:
                 outputs[name] = Ref(slots[target.name], target.fields)
         if self._problems:
             raise DocumentError(self._problems)
-        return Wiring(inputs, steps, slots, outputs)
+        return Structure(MappingProxyType(inputs), tuple(steps), MappingProxyType(slots), MappingProxyType(outputs))
 
     def _input_type(self, entry: InputEntry) -> PortType:
         try:
@@ -178,22 +92,11 @@ class _Wirer:
             self._problem(self._unusable[name], node.use.place, nearest)
         return self._operators[name]
 
-    def _present(self, operators: Mapping[str, Operator | None]) -> dict[str, FlatNode]:
-        """The nodes without names of ports and parameters that are no longer in use; each old one is warned of."""
-        warnings: dict[str, None] = {}
-        nodes = {
-            name: node if (operator := operators[name]) is None else with_present_names(node, operator, warnings)
-            for name, node in self._graph.nodes.items()
-        }
-        for warning in warnings:
-            warn(warning)
-        return nodes
-
     # --- order ------------------------------------------------------------------------------------
 
     def _order(self, operators: Mapping[str, Operator | None]) -> Iterator[str]:
         """Node names so that each stands after what it depends on (Kahn); a cycle is a problem."""
-        nodes = self._nodes
+        nodes = self._graph.nodes
         parents = {
             name: {t.name for w in node.wires.values() for t in w.targets if t.name in nodes}
             for name, node in nodes.items()
@@ -232,8 +135,7 @@ class _Wirer:
     def _arguments(
         self, node: FlatNode, operator: Operator, types: Mapping[str, PortType], slots: Mapping[str, int]
     ) -> Iterator[Argument]:
-        plugged = {name: flat for name, flat in node.wires.items() if not flat.unplugged}
-        for port_name, flat in plugged.items():
+        for port_name, flat in node.wires.items():
             port = operator.inputs.get(port_name)
             if port is None:
                 if port_name not in node.carried:
@@ -246,7 +148,7 @@ class _Wirer:
                 refs = tuple(Ref(slots[t.name], t.fields) for t in flat.targets)
                 yield Argument(port_name, refs, as_list, port.lazy)
         for port in operator.inputs.values():
-            if port.required and port.name not in plugged:
+            if port.required and port.name not in node.wires:
                 self._problem(
                     f"port {port.name!r} ({port.type}) of node {node.name!r} ({operator.name}) is not connected",
                     node.place,
@@ -273,7 +175,7 @@ class _Wirer:
                 hint = " (it may be None; the port is not optional)" if source.optional and not wanted.optional else ""
                 self._problem(
                     f"{target} gives {source}, but port {port.name!r} of node {node.name!r} "
-                    f"({node.use.value}) takes {wanted}{hint}",
+                    f"({self._graph.nodes[node.name].use.value}) takes {wanted}{hint}",
                     flat.place,
                 )
                 return None
