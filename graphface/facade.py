@@ -15,7 +15,6 @@ from typing import Any
 
 from graphface.cache.memory import MemoryTier
 from graphface.document.compose import Choices, compose
-from graphface.document.graph_files import shipped_folders
 from graphface.document.present_names import with_present_names
 from graphface.document.source import read_source
 from graphface.evaluate.evaluator import Evaluator, Result
@@ -54,7 +53,7 @@ def load(
         registry = registry.extended()
         for plugin in plugins:
             registry.add_file(Path(plugin))
-    shipped = shipped_folders(registry)
+    shipped = registry.graph_folders()
     choices = Choices(tuple(variants), tuple(profiles), dict(replace or {}), dict(set or {}))
     composition = compose(read_source(source, shipped, registry), choices, shipped=shipped)
     return Graph(with_present_names(composition, registry), registry)

@@ -12,7 +12,6 @@ from pathlib import Path
 from graphface.document.document import Document, read_document
 from graphface.errors import DocumentError, Problem, UnreadableFile, did_you_mean, nearest_names
 from graphface.place import Place
-from graphface.registry import Registry
 
 GRAPH_SUFFIXES = (".yaml", ".yml")
 
@@ -34,11 +33,6 @@ def find_graph(name: str, shipped: Sequence[Path]) -> Path:
     hint = f" (shipped graphs: {', '.join(known)})" if known else ""
     near = did_you_mean(nearest_names(path.stem, known))
     raise UnreadableFile(name, f"no such graph file{near}{hint}")
-
-
-def shipped_folders(registry: Registry) -> list[Path]:
-    """The folders of graph files that installed packs offer."""
-    return registry.graph_folders()
 
 
 def shipped_graphs(shipped: Sequence[Path]) -> list[str]:

@@ -42,8 +42,8 @@ class Observer:
 class Hooks:
     """The hooks of one run: for each kind those that an observer overrides, ready to be called.
 
-    An observer that raises is switched off for the rest of this run, with a warning: it is there to look on, and what
-    it looks at has to go on. KeyboardInterrupt passes, so that a hook can end the run.
+    An observer that raises is switched off for the rest of this run, with a warning: what it watches goes on.
+    KeyboardInterrupt passes, so that a hook can end the run.
 
         hooks = Hooks(evaluator.observers)
         for hook in hooks.node_finished:

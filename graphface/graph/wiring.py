@@ -175,7 +175,7 @@ class _Wirer:
                 hint = " (it may be None; the port is not optional)" if source.optional and not wanted.optional else ""
                 self._problem(
                     f"{target} gives {source}, but port {port.name!r} of node {node.name!r} "
-                    f"({self._graph.nodes[node.name].use.value}) takes {wanted}{hint}",
+                    f"({node.use.value}) takes {wanted}{hint}",
                     flat.place,
                 )
                 return None

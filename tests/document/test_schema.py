@@ -13,7 +13,6 @@ from toys import toy_registry
 
 from graphface import DocumentError, Formerly, Registry, load, node
 from graphface.cli import main
-from graphface.document.graph_files import shipped_folders
 from graphface.document.located import parse, plain
 from graphface.document.schema import graph_schema
 from graphface.place import Source
@@ -114,7 +113,7 @@ class TestItself:
 
 class TestAccepts:
     @pytest.mark.parametrize(
-        "path", [p for f in shipped_folders(default_registry()) for p in sorted(f.glob("*.yaml"))], ids=lambda p: p.name
+        "path", [p for f in default_registry().graph_folders() for p in sorted(f.glob("*.yaml"))], ids=lambda p: p.name
     )
     def test_shipped(self, installed: dict[str, Any], path: Path) -> None:
         """Every shipped graph."""
