@@ -20,7 +20,7 @@ from pydantic import Field
 from graphface import warn
 from graphface.nodes.color import channel_mean
 from graphface.nodes.face_scale import face_scale
-from graphface.nodes.resample import fetched
+from graphface.nodes.resample import resampled
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Correspondence, FloatArray, Image, Landmarks
 
@@ -50,7 +50,7 @@ _WORTH = 0.02
 
 
 _RESAMPLED = 0.02
-"""Mean square difference that two copies of one picture have once one of them was fetched: no reason to move."""
+"""Mean square difference that two copies of one picture have once one of them was resampled: no reason to move."""
 
 
 _LEAST_SIDE = 8
@@ -127,7 +127,7 @@ def _refined_places(
     inside *= inside > 0.999  # beside the mesh there are no values to compare
     mine = _log_intensity(small(photo.pixels))
     reduced = replace(correspondence, places=small(correspondence.places), inside=inside, valid=inside)
-    theirs = np.where(inside > 0.999, _log_intensity(fetched(reference.pixels, reduced)), mine)
+    theirs = np.where(inside > 0.999, _log_intensity(resampled(reference.pixels, reduced)), mine)
     mine, theirs = (_equalized(values, settings.window * unit) for values in (mine, theirs))
     levels = [np.clip(128 + _CONTRAST * v, 0, 255).astype(np.uint8) for v in (mine, theirs)]
     forth = np.asarray(flow(levels[0], levels[1]), np.float32)
