@@ -16,7 +16,7 @@ _MODULES = {
     "export": "textured",
     "masks": "face geometric features cue cued_hair hair classify network override",
     "matting": "none guided closed_form knn",
-    "regions": "nine features",
+    "regions": "nine",
     "intrinsic": "intensity retinex multiscale_retinex bilateral log_tv l1_flatten bell2014",
     "albedo": "shadow_color",
     "metrics": "operators",

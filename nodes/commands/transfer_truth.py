@@ -101,7 +101,8 @@ class _Representations(MemoryTier):
 def _runs(graph: Graph, evaluator: Evaluator, memory: _Representations) -> Method:
     """The graph's image; what each photo gives alone is computed beforehand, so that only the transfer is timed."""
     alone = [f"pair/{f}.{n}" for f in ("face", "other") for n in ("labels", "spread", "mask")]
-    alone += ["pair/face_detail", "pair/other_detail", "pair/face_bare", "pair/other_bare", "pair/in_front"]
+    alone += ["pair/face_detail", "pair/other_detail", "pair/face_visible_skin", "pair/other_visible_skin"]
+    alone += ["pair/occluders"]
 
     def run(photo: Path, reference: Path) -> tuple[Image, float]:
         graph.run(alone, evaluator=evaluator, photo=photo, reference=reference)
