@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from graphface.nodes.commands.segmentation_truth import Labeller, Segmented
+    from graphface.nodes.bench.segmentation_truth import Labeller, Segmented
 
 app = typer.Typer(help="Measure accuracy on ground truth, and the time it takes.", no_args_is_help=True)
 
@@ -33,7 +33,7 @@ def relight(
 ) -> None:
     """Relight the path-traced heads by their known lights and compare with the truth."""
     from graphface import UsageError
-    from graphface.nodes.commands.truth import LIGHTS, relight_truth
+    from graphface.nodes.bench.truth import LIGHTS, relight_truth
     from graphface.terminal import print_table
 
     if method not in ("additive", "multiplicative", "none", "split"):
@@ -69,8 +69,8 @@ def lights(
 
     from graphface import UsageError
     from graphface.errors import did_you_mean, nearest_names
-    from graphface.nodes.commands.known_lights import VARIANTS, relight_known, truth_cases, yale_cases
-    from graphface.nodes.commands.variant_sheet import variant_sheets
+    from graphface.nodes.bench.known_lights import VARIANTS, relight_known, truth_cases, yale_cases
+    from graphface.nodes.bench.variant_sheet import variant_sheets
     from graphface.terminal import print_table
 
     if truth not in ("heads", "yale"):
@@ -107,7 +107,7 @@ def scenes(
     repeats: Annotated[int, typer.Option(min=1, help="Edits timed for each scene; the median counts.")] = 5,
 ) -> None:
     """What each scene runs and costs once the representation is there, as a multiple of copying the arrays it reads."""
-    from graphface.nodes.commands.scene_cost import scene_costs
+    from graphface.nodes.bench.scene_cost import scene_costs
     from graphface.terminal import print_table
 
     rows = [
@@ -128,8 +128,8 @@ def geometry(
     """Compare the geometries with the path-traced heads: landmarks, normals, depth, milliseconds."""
     from statistics import fmean, median
 
-    from graphface.nodes.commands.geometry_truth import geometry_truth
-    from graphface.nodes.commands.heads import LIGHTS
+    from graphface.nodes.bench.geometry_truth import geometry_truth
+    from graphface.nodes.bench.heads import LIGHTS
     from graphface.nodes.morphable.library import named_model
     from graphface.terminal import print_table
 
@@ -156,7 +156,7 @@ def poses(
     """Fit face models to photographs with 68 points: error, yaw, share of failures; residual on portraits."""
     from statistics import fmean, median
 
-    from graphface.nodes.commands import geometry_photos as photos
+    from graphface.nodes.bench import geometry_photos as photos
     from graphface.nodes.morphable.library import named_model
     from graphface.terminal import print_table
 
@@ -206,7 +206,7 @@ def masks(
     from statistics import fmean, median
 
     from graphface import UsageError
-    from graphface.nodes.commands import segmentation_truth as truth
+    from graphface.nodes.bench import segmentation_truth as truth
     from graphface.nodes.masks.label_weights import LabelWeights
     from graphface.terminal import print_table
 
@@ -251,7 +251,7 @@ def matting(
 ) -> None:
     """Closed-form matting in the band against PyMatting's for the whole picture: CPU seconds, and the alphas apart."""
     from graphface.mapping import files_at
-    from graphface.nodes.commands.matting_speed import matting_speed
+    from graphface.nodes.bench.matting_speed import matting_speed
     from graphface.terminal import print_table
 
     files = [Path(f) for where in photos for f in ([where] if Path(where).is_file() else files_at(where))]
@@ -278,7 +278,7 @@ def _files(pattern: str) -> list[Path]:
 def _print_agreement(photos: str, label: Labeller) -> None:
     from statistics import fmean
 
-    from graphface.nodes.commands.segmentation_agreement import segment_agreement
+    from graphface.nodes.bench.segmentation_agreement import segment_agreement
     from graphface.terminal import print_table
 
     found = sorted(segment_agreement(_files(photos), label), key=lambda one: one.worst)
@@ -290,7 +290,7 @@ def _print_agreement(photos: str, label: Labeller) -> None:
 
 
 def _print_noise(photos: str, label: Labeller) -> None:
-    from graphface.nodes.commands.segmentation_noise import segment_noise
+    from graphface.nodes.bench.segmentation_noise import segment_noise
     from graphface.terminal import print_table
 
     found = sorted(segment_noise(_files(photos), label=label), key=lambda one: one.worst)
@@ -326,7 +326,7 @@ def intrinsic(
     csv: Annotated[Path | None, typer.Option(help="Write every figure here as well.")] = None,
 ) -> None:
     """Albedo and shading errors of the intrinsic methods on path-traced heads, with milliseconds."""
-    from graphface.nodes.commands.intrinsic_truth import intrinsic_truth
+    from graphface.nodes.bench.intrinsic_truth import intrinsic_truth
     from graphface.registry import default_registry
     from graphface.terminal import print_table
 
@@ -347,7 +347,7 @@ def light(
     csv: Annotated[Path | None, typer.Option(help="Write every figure here as well.")] = None,
 ) -> None:
     """Error of the direction of light that `sh.fit` finds on path-traced heads, by order and robustness."""
-    from graphface.nodes.commands.intrinsic_truth import light_truth
+    from graphface.nodes.bench.intrinsic_truth import light_truth
     from graphface.terminal import print_table
 
     figures = list(light_truth(data))
@@ -366,7 +366,7 @@ def makeup(
     intrinsic: Annotated[bool, typer.Option(help="Each intrinsic method in turn; takes minutes.")] = False,
 ) -> None:
     """Give path-traced heads each other's makeup and compare with the truth."""
-    from graphface.nodes.commands.transfer_truth import makeup_truth
+    from graphface.nodes.bench.transfer_truth import makeup_truth
     from graphface.terminal import print_table
 
     scored = makeup_truth(data, out, swaps=swaps, intrinsic=intrinsic)
@@ -382,8 +382,8 @@ def transfer(
     graph: Annotated[str, typer.Option(help="What --table draws: makeup or transfer.")] = "makeup",
 ) -> None:
     """Faithfulness, realism and predictability of makeup on pairs of photographs; with --table, their picture."""
-    from graphface.nodes.commands.transfer_criteria import Criteria, criteria
-    from graphface.nodes.commands.transfer_table import transfer_table
+    from graphface.nodes.bench.transfer_criteria import Criteria, criteria
+    from graphface.nodes.bench.transfer_table import transfer_table
     from graphface.nodes.image import write_picture
     from graphface.terminal import print_table
 

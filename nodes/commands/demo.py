@@ -9,7 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from graphface import Result
-    from graphface.nodes.commands.sheet import Picture
+    from graphface.nodes.bench.contact_sheet import Picture
 
 SCENES = ("window-left", "rim-right", "red-blue")
 _STAGES = {
@@ -58,7 +58,7 @@ def demo(
 
 def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
     """The photo whole, every stage around the face."""
-    from graphface.nodes.commands.sheet import around_face, contact_sheet, mesh_overlay, picture_of
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet, mesh_overlay, picture_of
     from graphface.nodes.types import Image
 
     photo, landmarks = results["photo"], results["face.landmarks"]

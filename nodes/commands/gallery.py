@@ -25,8 +25,8 @@ def gallery(
     import os
 
     from graphface import Evaluator, MemoryTier, load
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet
     from graphface.nodes.commands.demo import astronaut
-    from graphface.nodes.commands.sheet import around_face, contact_sheet
     from graphface.nodes.image import write_picture
     from graphface.nodes.types import Image
     from graphface.outputs import make_folder, write_output

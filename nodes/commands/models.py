@@ -88,7 +88,7 @@ def learn(
     card: Annotated[Path | None, typer.Option(help="JSON with further words for the card.")] = None,
 ) -> None:
     """Learn a model from photographs: the built-in one was made so (see its card)."""
-    from graphface.nodes.commands.learning import learn_from_photos
+    from graphface.nodes.learning.face_model import learn_from_photos
     from graphface.nodes.morphable.storage import save_model
 
     expression = expression if people is not None else 0
@@ -108,7 +108,7 @@ def relief(
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("relief.safetensors"),
 ) -> None:
     """Correct a learned model's relief by heads whose normals are known: the last step of making the built-in one."""
-    from graphface.nodes.commands.relief_truth import relief_of_heads
+    from graphface.nodes.learning.relief import relief_of_heads
     from graphface.nodes.morphable.storage import load_model, save_model
 
     better, off = relief_of_heads(load_model(model, refine=False), data)
@@ -134,8 +134,8 @@ def labels(
     """Learn the small network of masks.cue; needs PyTorch and graphface[network]. The shipped one was made so."""
     from dataclasses import replace
 
-    from graphface.nodes.commands.label_learning import Course, learn_labels
-    from graphface.nodes.commands.learning import words_of
+    from graphface.nodes.learning.face_model import words_of
+    from graphface.nodes.learning.label_learning import Course, learn_labels
     from graphface.nodes.masks.label_weights import write_weights
 
     said = words_of(card)

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphface import GraphfaceWarning, RunError, UsageError, load
-from graphface.nodes.commands.transfer_truth import makeup_truth
+from graphface.nodes.bench.transfer_truth import makeup_truth
 from graphface.nodes.makeup.boundary import boundary, core
 from graphface.nodes.makeup.coverage import coverage
 from graphface.nodes.makeup.detail import detail, keep

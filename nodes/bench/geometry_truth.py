@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.commands.heads import LIGHTS, heads_of
+from graphface.nodes.bench.heads import LIGHTS, heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468

@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphface import UnreadableFile
+from graphface.nodes.bench.heads import heads_of
+from graphface.nodes.bench.truth import LIGHTS, known_scene
 from graphface.nodes.colour import decode_srgb
-from graphface.nodes.commands.heads import heads_of
-from graphface.nodes.commands.truth import LIGHTS, known_scene
 from graphface.nodes.image import read_image, write_image
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.scene import DirectionalLight, Scene

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from portraits import portrait
 
 from graphface import UnreadableFile, UsageError
-from graphface.nodes.commands.label_learning import Course, examples_of, learn_labels
-from graphface.nodes.commands.label_lessons import lesson, plate_behind
-from graphface.nodes.commands.label_training import Examples, folded, network, trained
-from graphface.nodes.commands.label_variations import example
+from graphface.nodes.learning.label_learning import Course, examples_of, learn_labels
+from graphface.nodes.learning.label_lessons import lesson, plate_behind
+from graphface.nodes.learning.label_training import Examples, folded, network, trained
+from graphface.nodes.learning.label_variations import example
 from graphface.nodes.masks.label_network import label_scores
 from graphface.nodes.masks.shown import CHANNELS
 from graphface.nodes.masks.upright import HEIGHT, WIDTH

@@ -10,7 +10,7 @@ import numpy as np
 
 from graphface import Evaluator, GraphfaceError, MemoryTier, load, warn
 from graphface.mapping import run_over
-from graphface.nodes.commands.sheet import Picture
+from graphface.nodes.bench.contact_sheet import Picture
 from graphface.nodes.types import Image, Landmarks
 
 _ASKED = ("image", "pair.landmarks", "pair.working", "pair.reference_landmarks", "pair.reference_working")

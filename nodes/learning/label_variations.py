@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.random import Generator
 
-from graphface.nodes.commands.label_lessons import Bytes, Lesson
+from graphface.nodes.learning.label_lessons import Bytes, Lesson
 from graphface.nodes.masks.shown import mirror_image, shown
 from graphface.nodes.masks.upright import HEIGHT, UNIT, WIDTH, upright_of
 from graphface.nodes.types import FloatArray, Landmarks

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import GraphfaceError, warn
-from graphface.nodes.commands.heads import LIGHTS, heads_of
-from graphface.nodes.commands.segmentation_truth import true_labels
+from graphface.nodes.bench.heads import LIGHTS, heads_of
+from graphface.nodes.bench.segmentation_truth import true_labels
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.landmarks.network import network_pixels

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from graphface.nodes.commands.transfer_criteria import albedo_distance, feature_similarity, seam
-from graphface.nodes.commands.transfer_table import face_crop
-from graphface.nodes.commands.transfer_truth import reinhard
+from graphface.nodes.bench.transfer_criteria import albedo_distance, feature_similarity, seam
+from graphface.nodes.bench.transfer_table import face_crop
+from graphface.nodes.bench.transfer_truth import reinhard
 from graphface.nodes.makeup.features import features
 from graphface.nodes.types import Image
 

@@ -7,10 +7,10 @@ import pytest
 from portraits import portrait
 
 from graphface import GraphfaceWarning
-from graphface.nodes.commands import segmentation_agreement
-from graphface.nodes.commands.segmentation_agreement import segment_agreement
-from graphface.nodes.commands.segmentation_noise import LEAST, Shaken, portraits, shaken
-from graphface.nodes.commands.segmentation_truth import segment_photo
+from graphface.nodes.bench import segmentation_agreement
+from graphface.nodes.bench.segmentation_agreement import segment_agreement
+from graphface.nodes.bench.segmentation_noise import LEAST, Shaken, portraits, shaken
+from graphface.nodes.bench.segmentation_truth import segment_photo
 
 
 class TestShaken:
@@ -28,7 +28,7 @@ class TestShaken:
 
     def test_noise_is_seen(self, monkeypatch):
         """A segmentation that follows single levels is found out."""
-        from graphface.nodes.commands import segmentation_noise
+        from graphface.nodes.bench import segmentation_noise
 
         monkeypatch.setattr(
             segmentation_noise, "likeliest", lambda photo, *_: np.rint(photo.pixels[..., 0] * 255).astype(int) % 3

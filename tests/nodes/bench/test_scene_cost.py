@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphface.nodes.commands import scene_cost
+from graphface.nodes.bench import scene_cost
 from graphface.nodes.image import write_picture
 
 ON_ITS_OWN = "background: 1\nhair: 0\n"

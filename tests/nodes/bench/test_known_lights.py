@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from graphface import UnreadableFile
-from graphface.nodes.commands.known_lights import (
+from graphface.nodes.bench.known_lights import (
     VARIANTS,
     YALE_LIGHTS,
     Case,
@@ -21,7 +21,7 @@ from graphface.nodes.commands.known_lights import (
     yale_cases,
     yale_scene,
 )
-from graphface.nodes.commands.truth import LIGHTS
+from graphface.nodes.bench.truth import LIGHTS
 from graphface.nodes.image import image_from_array, read_image, write_picture
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.scene import DirectionalLight, Scene

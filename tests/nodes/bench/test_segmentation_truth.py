@@ -7,7 +7,7 @@ import pytest
 
 from graphface import UnreadableFile
 from graphface.assets import AssetUnavailable
-from graphface.nodes.commands.segmentation_truth import LABELS, MATTINGS, boundary_error, iou, segment_truth
+from graphface.nodes.bench.segmentation_truth import LABELS, MATTINGS, boundary_error, iou, segment_truth
 
 
 @pytest.fixture(scope="module")

@@ -16,8 +16,8 @@ from typing import Any, Literal
 import numpy as np
 
 from graphface.nodes import blend, detail, sh
+from graphface.nodes.bench.heads import heads_of
 from graphface.nodes.colour import decode_srgb, encode_srgb
-from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image, write_image
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks

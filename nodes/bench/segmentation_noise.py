@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import GraphfaceError, warn
-from graphface.nodes.commands.segmentation_truth import Labeller, iou, segment_photo
+from graphface.nodes.bench.segmentation_truth import Labeller, iou, segment_photo
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.matting.guided import guided

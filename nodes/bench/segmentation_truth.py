@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.commands.heads import heads_of
+from graphface.nodes.bench.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.classify import classify

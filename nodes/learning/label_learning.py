@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from graphface import UnreadableFile
-from graphface.nodes.commands.label_lessons import Lesson, head_lessons, photo_lessons
-from graphface.nodes.commands.label_training import Examples, folded, trained
-from graphface.nodes.commands.label_variations import example
+from graphface.nodes.learning.label_lessons import Lesson, head_lessons, photo_lessons
+from graphface.nodes.learning.label_training import Examples, folded, trained
+from graphface.nodes.learning.label_variations import example
 from graphface.nodes.masks.shown import CHANNELS
 from graphface.nodes.masks.upright import HEIGHT, WIDTH
 

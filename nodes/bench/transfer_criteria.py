@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from graphface import Evaluator, GraphfaceError, MemoryTier, load
+from graphface.nodes.bench.transfer_truth import reinhard
 from graphface.nodes.colour import channel_mean
-from graphface.nodes.commands.transfer_truth import reinhard
 from graphface.nodes.makeup.features import EYES, LIPS, MOUTH, NOSE, Features
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
 

@@ -13,7 +13,7 @@ from statistics import fmean
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.commands.heads import heads_of
+from graphface.nodes.bench.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh
 from graphface.nodes.metrics import mean_angle

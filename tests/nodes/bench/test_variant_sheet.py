@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphface import UnreadableFile
-from graphface.nodes.commands.variant_sheet import variant_sheets
+from graphface.nodes.bench.variant_sheet import variant_sheets
 from graphface.nodes.image import read_image, write_picture
 
 

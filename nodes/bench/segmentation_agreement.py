@@ -10,8 +10,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphface.nodes.commands.segmentation_noise import LEAST, likeliest, portraits
-from graphface.nodes.commands.segmentation_truth import Labeller, iou, segment_by_network, segment_photo
+from graphface.nodes.bench.segmentation_noise import LEAST, likeliest, portraits
+from graphface.nodes.bench.segmentation_truth import Labeller, iou, segment_by_network, segment_photo
 
 
 @dataclass(frozen=True)

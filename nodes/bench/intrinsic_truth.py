@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from graphface.nodes.bench.heads import heads_of
 from graphface.nodes.colour import decode_srgb
-from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.image import read_image
 from graphface.nodes.metrics import direction_angle, lmse, si_mse
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask, Normals

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import GraphfaceError, UnreadableFile
-from graphface.nodes.commands.geometry_truth import landmark_error
+from graphface.nodes.bench.geometry_truth import landmark_error
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.morphable.model import MorphableModel

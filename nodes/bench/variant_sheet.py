@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from graphface.nodes.commands.sheet import Picture, contact_sheet
+from graphface.nodes.bench.contact_sheet import Picture, contact_sheet
 from graphface.nodes.image import read_image, write_picture
 from graphface.nodes.types import Image
 
