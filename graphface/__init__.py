@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from graphface.node import Cosmetic, Needs, node
 
 if TYPE_CHECKING:
-    from graphface.assets import Asset
+    from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
     from graphface.errors import (
         DocumentError,
@@ -30,12 +30,12 @@ if TYPE_CHECKING:
         UnwritableFile,
         UsageError,
     )
-    from graphface.evaluate import Evaluator, Result
+    from graphface.evaluate.evaluator import Evaluator, Result
+    from graphface.evaluate.observe import Observer
     from graphface.fallback import GraphfaceWarning, warn
-    from graphface.graph import Graph, load
-    from graphface.observe import Observer
+    from graphface.graph.graph import Graph, load
     from graphface.registry import Pack, Registry
-    from graphface.values import ArrayType, Lazy
+    from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
 
@@ -46,27 +46,27 @@ if not os.path.isdir(os.path.join(__path__[0], "nodes")) and os.path.isdir(os.pa
     __path__.append(_checkout)
 
 _HOMES = {
-    "ArrayType": "values",
-    "Asset": "assets",
+    "ArrayType": "values.port_types",
+    "Asset": "assets.asset",
     "DocumentError": "errors",
-    "Evaluator": "evaluate",
-    "Graph": "graph",
+    "Evaluator": "evaluate.evaluator",
+    "Graph": "graph.graph",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
     "InputError": "errors",
-    "Lazy": "values",
+    "Lazy": "values.port_types",
     "MemoryTier": "cache.memory",
     "NodeError": "errors",
-    "Observer": "observe",
+    "Observer": "evaluate.observe",
     "Pack": "registry",
     "Registry": "registry",
-    "Result": "evaluate",
+    "Result": "evaluate.evaluator",
     "RunError": "errors",
     "RunFailed": "errors",
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
-    "load": "graph",
+    "load": "graph.graph",
     "warn": "fallback",
 }
 

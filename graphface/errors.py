@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from graphface.located import Place
-    from graphface.observe import Record
+    from graphface.document.located import Place
+    from graphface.evaluate.observe import Record
 
 
 class GraphfaceError(Exception):

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from graphface.values import PortType, is_lazy, output_fields, port_type
+from graphface.values.port_types import PortType, is_lazy, output_fields, port_type
 
 if TYPE_CHECKING:
     from pydantic import BaseModel

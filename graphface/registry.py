@@ -22,10 +22,10 @@ from typing import TYPE_CHECKING, Any
 
 from graphface.errors import PluginError, UnknownOperator, UnknownType
 from graphface.node import Operator, operator_of
-from graphface.values import ANY, Atom, ListOf, PortType, port_type
+from graphface.values.port_types import ANY, Atom, ListOf, PortType, port_type
 
 if TYPE_CHECKING:
-    from graphface.assets import Asset
+    from graphface.assets.asset import Asset
 
 ENTRY_POINTS = "graphface.nodes"
 _MAX_LISTS = 8
@@ -42,7 +42,7 @@ class Pack:
             where a family is spread over several.
         types: name used in graph files to "module:attribute".
         graphs: the package whose folder holds shipped graph files.
-        assets: "module:attribute" of tuples of `graphface.assets.Asset`, the files that its operators fetch, separated
+        assets: "module:attribute" of tuples of `graphface.assets.asset.Asset`, the files that its operators fetch, separated
             by spaces.
     """
 

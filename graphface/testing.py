@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from graphface.cache.digest import digest_value
 from graphface.errors import GraphfaceError
-from graphface.frozen import arrays_in, first_non_finite, freeze
 from graphface.node import Operator, operator_of
+from graphface.values.digest import digest_value
+from graphface.values.frozen import arrays_in, first_non_finite, freeze
 
 
 def check_node(function: Callable[..., Any], *inputs: Any, absorbs_nan: bool = False, **parameters: Any) -> Any:

@@ -58,7 +58,7 @@ class Representation:
         """
         from safetensors import SafetensorError, safe_open
 
-        from graphface.cache.codec import CodecError, decode
+        from graphface.values.codec import CodecError, decode
 
         path = Path(path)
         if not path.is_file():
@@ -84,8 +84,8 @@ class Representation:
         from safetensors import SafetensorError
         from safetensors.numpy import save_file
 
-        from graphface.cache.codec import encode
-        from graphface.outputs import beside
+        from graphface.values.codec import encode
+        from graphface.values.writing import beside
 
         tensors, structure = encode(representation)
         words = {"format": _FORMAT, "structure": json.dumps(structure)}

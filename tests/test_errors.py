@@ -3,6 +3,7 @@
 import pytest
 
 from graphface import GraphfaceWarning, warn
+from graphface.document.located import Place, Source
 from graphface.errors import (
     DocumentError,
     InputError,
@@ -14,7 +15,6 @@ from graphface.errors import (
     nearest_names,
 )
 from graphface.fallback import collector
-from graphface.located import Place, Source
 
 PLACE = Place(Source("g.yaml", "abc\nnodes: x\n"), 2, 8)
 

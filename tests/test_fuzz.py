@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from toys import toy_registry
 
 from graphface import GraphfaceError, Registry, load
-from graphface.flags import read_flag
+from graphface.document.flags import read_flag
 
 EXAMPLES = int(os.environ.get("GRAPHFACE_FUZZ", "300"))
 SHIPPED = Path(__file__).resolve().parents[1] / "graphs"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.values import ArrayType, PortType
+from graphface.values.port_types import ArrayType, PortType
 
 Picture = NDArray[np.uint8]
 Box = tuple[int, int, int, int]

@@ -11,7 +11,7 @@ from graphface.errors import UsageError, did_you_mean, nearest_names
 if TYPE_CHECKING:
     from graphface.node import Operator
     from graphface.registry import Registry
-    from graphface.values import PortType
+    from graphface.values.port_types import PortType
 
 FAMILY = "metrics"
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from graphface.ablation.drawing import Picture, picture_of
 from graphface.ablation.table import columns, rows, shown
-from graphface.outputs import beside
+from graphface.values.writing import beside
 
 if TYPE_CHECKING:
     from graphface.ablation.running import Ablation

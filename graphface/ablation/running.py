@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 from graphface.ablation.figures import Metric, measured
 from graphface.ablation.swaps import Variant, read_swaps, variants
 from graphface.errors import RunFailed, UsageError
-from graphface.evaluate import Evaluator
-from graphface.observe import Observer, Record
+from graphface.evaluate.evaluator import Evaluator
+from graphface.evaluate.observe import Observer, Record
 
 if TYPE_CHECKING:
-    from graphface.graph import Graph
-    from graphface.wiring import Step
+    from graphface.graph.graph import Graph
+    from graphface.graph.wiring import Step
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ def ablate(
         UsageError: a swap that the graph cannot take. InputError: an input that does not fit.
     """
     from graphface.cache.memory import MemoryTier
-    from graphface.graph import load
+    from graphface.graph.graph import load
 
     given = dict(loading or {})
     base = load(source, **given)
@@ -144,7 +144,7 @@ class _Times(Observer):
 
 
 def _loaded(source: str | Path, variant: Variant, given: Mapping[str, Any]) -> Graph:
-    from graphface.graph import load
+    from graphface.graph.graph import load
 
     both = dict(given)
     both["replace"] = {**given.get("replace", {}), **variant.replace}

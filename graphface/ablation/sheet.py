@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphface.ablation.drawing import Box, Picture, cropped, difference, picture_of, where_they_differ
-from graphface.outputs import beside
+from graphface.values.writing import beside
 
 if TYPE_CHECKING:
     from PIL.Image import Image

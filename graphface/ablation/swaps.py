@@ -12,12 +12,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from graphface.document.located import scalar
 from graphface.errors import UsageError, did_you_mean, nearest_names
-from graphface.located import scalar
 
 if TYPE_CHECKING:
-    from graphface.graph import Graph
-    from graphface.wiring import Step
+    from graphface.graph.graph import Graph
+    from graphface.graph.wiring import Step
 
 OVERLAYS = ("variant", "profile")
 

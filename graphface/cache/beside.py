@@ -11,8 +11,8 @@ import os
 from collections.abc import Iterable
 from pathlib import Path, PurePath
 
-from graphface.cache.digest import digest_file
 from graphface.errors import UnreadableFile
+from graphface.values.digest import digest_file
 
 
 def place(path: str | PurePath, folders: Iterable[str]) -> str | None:

@@ -16,7 +16,7 @@ from functools import lru_cache
 from types import CodeType
 from typing import Any
 
-from graphface.cache.digest import Undigestible, exact, new_hash
+from graphface.values.digest import Undigestible, exact, new_hash
 
 PYTHON = f"{sys.implementation.name} {sys.version_info.major}.{sys.version_info.minor}"
 """Bytecode differs between versions of Python, so digests do too."""

@@ -18,8 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from graphface.cache.codec import TENSOR_DTYPES, Tensors
-from graphface.cache.digest import ALGORITHM, DIGEST_SIZE, new_hash
+from graphface.values.codec import TENSOR_DTYPES, Tensors
+from graphface.values.digest import ALGORITHM, DIGEST_SIZE, new_hash
 
 _DTYPES = dict(zip("BOOL U8 I8 U16 I16 F16 U32 I32 F32 U64 I64 F64".split(), TENSOR_DTYPES, strict=True))  # noqa: SIM905
 _CODES = {np.dtype(dtype): code for code, dtype in _DTYPES.items()}

@@ -40,7 +40,7 @@ Kind = Literal["entry", "unfinished", "foreign"]
 
 
 class Entry(NamedTuple):
-    """`keep_until` is the file's mtime: see `graphface.cache.room`."""
+    """`keep_until` is the file's mtime: see `graphface.cache.budget`."""
 
     path: str
     size: int

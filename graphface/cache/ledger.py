@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from graphface.cache.beside import content
-from graphface.cache.digest import Undigestible, exact, new_hash
 from graphface.cache.territory import Territory
+from graphface.values.digest import Undigestible, exact, new_hash
 
 MISSING: Any = object()
 _PLAIN = (type(None), bool, int, float, complex, str, bytes, np.ndarray, PurePath, type(...))

@@ -20,7 +20,7 @@ from typing import Any
 
 from graphface.cache.beside import named_files
 from graphface.cache.bytecode import Import, read_code
-from graphface.cache.digest import Undigestible, exact, new_hash
+from graphface.values.digest import Undigestible, exact, new_hash
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import typer
 from graphface.cli.options import Cache, GraphName, Inputs, Plugins, Profiles, Replaces, Sets, Variants, open_cache
 
 if TYPE_CHECKING:
-    from graphface.graph import Graph
+    from graphface.graph.graph import Graph
 
 
 def ablate(
@@ -47,10 +47,10 @@ def ablate(
     from graphface.ablation.table import as_csv, as_markdown, columns, rows, shown
     from graphface.cache.memory import MemoryTier
     from graphface.cli.options import load_graph
-    from graphface.evaluate import Evaluator
-    from graphface.flags import read_flag
-    from graphface.outputs import make_folder
-    from graphface.terminal import print_table, print_warnings
+    from graphface.document.flags import read_flag
+    from graphface.evaluate.evaluator import Evaluator
+    from graphface.report.terminal import print_table, print_warnings
+    from graphface.values.writing import make_folder
 
     box = _box(crop)
     base = load_graph(graph, sets, replaces, variants, profiles, plugins)
@@ -116,7 +116,7 @@ def read_cases(pairs: list[str]) -> list[Mapping[str, Any]]:
 def _truth(graph: Graph, declared: Any, case: Mapping[str, Any], where: Path) -> Any:
     """The true output of a case, read as the output's type."""
     from graphface.errors import UnreadableFile, UsageError
-    from graphface.inputs import reader_of
+    from graphface.graph.inputs import reader_of
 
     reader = reader_of(declared)
     if reader is None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from graphface.assets import Asset
+    from graphface.assets.asset import Asset
 
 app = typer.Typer(help="List, fetch or locate network weights and other pinned files.", no_args_is_help=True)
 
@@ -15,8 +15,8 @@ app = typer.Typer(help="List, fetch or locate network weights and other pinned f
 @app.command("list")
 def list_assets() -> None:
     """Show every asset: its size and where it is."""
-    from graphface.assets import asset_status
-    from graphface.terminal import print_table
+    from graphface.assets.asset import asset_status
+    from graphface.report.terminal import print_table
 
     rows = []
     for asset in _assets():
@@ -33,7 +33,7 @@ def fetch(
     ] = [],  # noqa: B006
 ) -> None:
     """Fetch assets now, so that later runs need no network."""
-    from graphface.assets import asset_path
+    from graphface.assets.asset import asset_path
 
     for asset in [_named(name) for name in names] or [asset for asset in _assets() if not asset.extra]:
         print(asset_path(asset))
@@ -42,7 +42,7 @@ def fetch(
 @app.command()
 def path(name: Annotated[str, typer.Argument(help="An asset's name.")]) -> None:
     """Print where an asset is, fetching it if needed."""
-    from graphface.assets import asset_path
+    from graphface.assets.asset import asset_path
 
     print(asset_path(_named(name)))
 

@@ -38,11 +38,11 @@ def explain(
 ) -> None:
     """Say for every node why it runs or not: first seen, a parameter, its code, an input changed, evicted, damaged."""
     from graphface.errors import RunFailed
-    from graphface.evaluate import Evaluator
-    from graphface.explain import Sizes, with_results
-    from graphface.explain import explain as explain_plan
-    from graphface.history import History, Remember
-    from graphface.terminal import print_explained
+    from graphface.evaluate.evaluator import Evaluator
+    from graphface.report.explain import Sizes, with_results
+    from graphface.report.explain import explain as explain_plan
+    from graphface.report.history import History, Remember
+    from graphface.report.terminal import print_explained
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     bound = loaded.bind(read_inputs(inputs))

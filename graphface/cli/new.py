@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 _STARTER = """\
-# yaml-language-server: $schema=graphface.schema.json
-# (graphface schema -o graphface.schema.json makes your editor complete and check this file)
+# yaml-language-server: $schema=graphface.document.schema.json
+# (graphface schema -o graphface.document.schema.json makes your editor complete and check this file)
 graphface: 1
 name: {name}
 doc: What this graph does, in a sentence.
@@ -38,7 +38,7 @@ outputs:
 def new(path: Annotated[Path, typer.Argument(help="The graph file to write; it must not exist.")]) -> None:
     """Start a commented graph file."""
     from graphface.errors import UsageError
-    from graphface.outputs import beside, check_folder
+    from graphface.values.writing import beside, check_folder
 
     if path.suffix not in (".yaml", ".yml"):
         raise UsageError(f"{path}: a graph file ends in .yaml")

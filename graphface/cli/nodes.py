@@ -16,7 +16,7 @@ def nodes(
 ) -> None:
     """List the operators, or show one: its ports, parameters, documentation and what may take its place."""
     from graphface.registry import default_registry
-    from graphface.terminal import print_operator, print_operators
+    from graphface.report.terminal import print_operator, print_operators
 
     registry = default_registry().extended()
     for plugin in plugins:

@@ -9,7 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from graphface.cache.disk import DiskTier
-    from graphface.graph import Graph
+    from graphface.graph.graph import Graph
 
 GraphName = Annotated[
     str, typer.Argument(metavar="GRAPH", help="A graph file, or the name of a shipped one (relight).")
@@ -49,8 +49,8 @@ def load_graph(
     Raises:
         DocumentError, UnreadableFile, PluginError: see `graphface.load`.
     """
-    from graphface.flags import read_flag
-    from graphface.graph import load
+    from graphface.document.flags import read_flag
+    from graphface.graph.graph import load
 
     return load(
         graph,

@@ -30,9 +30,9 @@ def plan(
     cache: Cache = None,
 ) -> None:
     """Show what a run would do: every node as run, memory, disk, maybe or skipped, with the reason."""
-    from graphface.evaluate import Evaluator
-    from graphface.plan import plan as make_plan
-    from graphface.terminal import print_plan
+    from graphface.evaluate.evaluator import Evaluator
+    from graphface.evaluate.plan import plan as make_plan
+    from graphface.report.terminal import print_plan
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     names = [text.partition("=")[0] for text in output] or None

@@ -24,7 +24,7 @@ from graphface.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from graphface.graph import Graph
+    from graphface.graph.graph import Graph
 
 
 def run(
@@ -59,14 +59,14 @@ def run(
     """Run a graph: [bold]graphface run relight -i photo=portrait.jpg -o relit.png[/bold]"""
     import os
 
+    from graphface.document.provenance import provenance
     from graphface.errors import UsageError
-    from graphface.evaluate import Evaluator
-    from graphface.history import History, Remember
-    from graphface.observe import Observer
-    from graphface.outputs import check_folder, check_output, write_output
-    from graphface.provenance import provenance
-    from graphface.terminal import ProgressBar, print_times, print_warnings
-    from graphface.trace import Trace
+    from graphface.evaluate.evaluator import Evaluator
+    from graphface.evaluate.observe import Observer
+    from graphface.report.history import History, Remember
+    from graphface.report.terminal import ProgressBar, print_times, print_warnings
+    from graphface.report.trace import Trace
+    from graphface.values.writing import check_folder, check_output, write_output
 
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
@@ -129,11 +129,11 @@ def run_map(
         UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
     """
     from graphface.cache.memory import MemoryTier
-    from graphface.evaluate import Evaluator
-    from graphface.mapping import MapFailed, read_maps, run_over
-    from graphface.outputs import check_folder, check_output, write_output
-    from graphface.provenance import provenance
-    from graphface.terminal import ProgressBar, print_times, print_warnings
+    from graphface.document.provenance import provenance
+    from graphface.evaluate.evaluator import Evaluator
+    from graphface.evaluate.mapping import MapFailed, read_maps, run_over
+    from graphface.report.terminal import ProgressBar, print_times, print_warnings
+    from graphface.values.writing import check_folder, check_output, write_output
 
     over = read_maps(maps)
     _check_distinct(graph, output, given, over)
@@ -173,7 +173,7 @@ def _check_distinct(graph: Graph, output: list[str], given: dict[str, str], over
     import itertools
 
     from graphface.errors import UsageError
-    from graphface.outputs import check_folder
+    from graphface.values.writing import check_folder
 
     seen: dict[Path, tuple[str, ...]] = {}
     for values in itertools.product(*over.values()):

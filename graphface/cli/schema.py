@@ -18,9 +18,9 @@ def schema(
     plugins: Plugins = [],  # noqa: B006
 ) -> None:
     """Write a JSON Schema of graph files: operators, ports, parameters, ranges and documentation."""
-    from graphface.outputs import beside, check_folder
+    from graphface.document.schema import graph_schema
     from graphface.registry import default_registry
-    from graphface.schema import graph_schema
+    from graphface.values.writing import beside, check_folder
 
     registry = default_registry().extended()
     for plugin in plugins:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.types import Image, Landmarks, Mesh
-from graphface.values import array_of
+from graphface.values.port_types import array_of
 
 Picture = NDArray[np.uint8]
 

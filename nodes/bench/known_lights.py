@@ -23,7 +23,7 @@ from graphface.nodes.image import read_image, write_image
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.scene import DirectionalLight, Scene
 from graphface.nodes.types import FloatArray, Image
-from graphface.outputs import make_folder
+from graphface.values.writing import make_folder
 
 if TYPE_CHECKING:
     from graphface import Evaluator, Graph

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphface import Evaluator, GraphfaceError, MemoryTier, load, warn
-from graphface.mapping import run_over
+from graphface.evaluate.mapping import run_over
 from graphface.nodes.bench.contact_sheet import Picture
 from graphface.nodes.types import Image, Landmarks
 

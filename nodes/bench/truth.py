@@ -31,7 +31,7 @@ from graphface.nodes.render.shade import shade
 from graphface.nodes.render.spread import spread, surroundings
 from graphface.nodes.render.surface import rasterize
 from graphface.nodes.types import Encoding, Image
-from graphface.outputs import make_folder
+from graphface.values.writing import make_folder
 
 LIGHTS = ("left45", "right45", "top", "left80_hard", "red_blue", "ambient")
 

@@ -34,7 +34,7 @@ def relight(
     """Relight the path-traced heads by their known lights and compare with the truth."""
     from graphface import UsageError
     from graphface.nodes.bench.truth import LIGHTS, relight_truth
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     if method not in ("additive", "multiplicative", "none", "split"):
         raise UsageError(f"--method {method!r}: expected additive, multiplicative, split or none")
@@ -71,7 +71,7 @@ def lights(
     from graphface.errors import did_you_mean, nearest_names
     from graphface.nodes.bench.known_lights import VARIANTS, relight_known, truth_cases, yale_cases
     from graphface.nodes.bench.variant_sheet import variant_sheets
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     if truth not in ("heads", "yale"):
         raise UsageError(f"--truth {truth!r}: expected heads or yale")
@@ -108,7 +108,7 @@ def scenes(
 ) -> None:
     """What each scene runs and costs once the representation is there, as a multiple of copying the arrays it reads."""
     from graphface.nodes.bench.scene_cost import scene_costs
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     rows = [
         (c.scene, str(c.nodes), c.effects, f"{c.milliseconds:.0f}", f"{c.milliseconds / max(c.copy, 1e-6):.1f}")
@@ -131,7 +131,7 @@ def geometry(
     from graphface.nodes.bench.geometry_truth import geometry_truth
     from graphface.nodes.bench.heads import LIGHTS
     from graphface.nodes.morphable.library import named_model
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     found = list(geometry_truth(data, {Path(name).stem: named_model(name) for name in model or ["builtin"]}))
     rows = []
@@ -158,7 +158,7 @@ def poses(
 
     from graphface.nodes.bench import geometry_photos as photos
     from graphface.nodes.morphable.library import named_model
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     rows = []
     for name in model or ["builtin"]:
@@ -208,7 +208,7 @@ def masks(
     from graphface import UsageError
     from graphface.nodes.bench import segmentation_truth as truth
     from graphface.nodes.masks.label_weights import LabelWeights
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     if labels not in truth.LABELLERS:
         raise UsageError(f"--labels {labels!r}: expected {', '.join(truth.LABELLERS)}")
@@ -250,9 +250,9 @@ def matting(
     tolerance: Annotated[float, typer.Option(help="Relative residual at which the solve in the band stops.")] = 3e-3,
 ) -> None:
     """Closed-form matting in the band against PyMatting's for the whole picture: CPU seconds, and the alphas apart."""
-    from graphface.mapping import files_at
+    from graphface.evaluate.mapping import files_at
     from graphface.nodes.bench.matting_speed import matting_speed
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     files = [Path(f) for where in photos for f in ([where] if Path(where).is_file() else files_at(where))]
     found = list(matting_speed(files, trust=trust, tolerance=tolerance))
@@ -270,7 +270,7 @@ def matting(
 
 
 def _files(pattern: str) -> list[Path]:
-    from graphface.mapping import files_at
+    from graphface.evaluate.mapping import files_at
 
     return [Path(file) for file in files_at(pattern)]
 
@@ -279,7 +279,7 @@ def _print_agreement(photos: str, label: Labeller) -> None:
     from statistics import fmean
 
     from graphface.nodes.bench.segmentation_agreement import segment_agreement
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     found = sorted(segment_agreement(_files(photos), label), key=lambda one: one.worst)
     columns = list(zip(*(one.overlaps for one in found), strict=True))
@@ -291,7 +291,7 @@ def _print_agreement(photos: str, label: Labeller) -> None:
 
 def _print_noise(photos: str, label: Labeller) -> None:
     from graphface.nodes.bench.segmentation_noise import segment_noise
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     found = sorted(segment_noise(_files(photos), label=label), key=lambda one: one.worst)
     rows = [(one.photo, *(f"{value:.3f}" for value in (*one.overlaps, one.worst))) for one in found]
@@ -328,7 +328,7 @@ def intrinsic(
     """Albedo and shading errors of the intrinsic methods on path-traced heads, with milliseconds."""
     from graphface.nodes.bench.intrinsic_truth import intrinsic_truth
     from graphface.registry import default_registry
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     registry = default_registry()
     base = registry.operator("intrinsic.intensity")
@@ -348,7 +348,7 @@ def light(
 ) -> None:
     """Error of the direction of light that `sh.fit` finds on path-traced heads, by order and robustness."""
     from graphface.nodes.bench.intrinsic_truth import light_truth
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     figures = list(light_truth(data))
     measures = ("mesh_degrees", "true_degrees", "milliseconds")
@@ -367,7 +367,7 @@ def makeup(
 ) -> None:
     """Give path-traced heads each other's makeup and compare with the truth."""
     from graphface.nodes.bench.transfer_truth import makeup_truth
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     scored = makeup_truth(data, out, swaps=swaps, intrinsic=intrinsic)
     rows = [(s.method, f"{s.psnr:.2f}", f"{s.ssim:.3f}", f"{s.milliseconds:.0f}") for s in scored]
@@ -385,7 +385,7 @@ def transfer(
     from graphface.nodes.bench.transfer_criteria import Criteria, criteria
     from graphface.nodes.bench.transfer_table import transfer_table
     from graphface.nodes.image import write_picture
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     inputs, others = _files(photos), _files(references)
     if table is not None:

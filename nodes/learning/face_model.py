@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import GraphfaceError, UnreadableFile, warn
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh
 from graphface.nodes.morphable.learn import Lesson, learn_model

@@ -18,7 +18,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import UsageError, node
-from graphface.assets import asset_path
+from graphface.assets.asset import asset_path
 from graphface.nodes.landmarks.network import network_pixels
 from graphface.nodes.masks.connected import apart, roots
 from graphface.nodes.masks.head import pose_of
@@ -65,7 +65,7 @@ def network(
             an alpha would let the background through.
 
     Raises:
-        UsageError: LiteRT is not installed. AssetUnavailable: see `graphface.assets.asset_path`.
+        UsageError: LiteRT is not installed. AssetUnavailable: see `graphface.assets.asset.asset_path`.
     """
     import cv2
 

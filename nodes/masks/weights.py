@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphface.assets import Asset
+from graphface.assets.asset import Asset
 
 SELFIE_MULTICLASS = Asset(
     "selfie_multiclass_256x256.tflite",

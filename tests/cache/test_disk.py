@@ -173,7 +173,7 @@ class TestDamage:
     def test_hash_not_installed(self, tier, reports, monkeypatch):
         """An entry whose checksum cannot be computed here is left for those who can."""
         tier.put(KEY, ARRAY, cost_seconds=0)
-        monkeypatch.setattr("graphface.cache.digest._xxh3", None)
+        monkeypatch.setattr("graphface.values.digest._xxh3", None)
         if b"xxh3" in entry_of(tier).read_bytes():
             assert tier.get(KEY, np.ndarray) is MISSING
             assert entry_of(tier).exists()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.cli import main
 from graphface.nodes.bench.truth import LIGHTS
 from graphface.nodes.image import write_picture

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import graphface
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.envmap import Environment
 from graphface.nodes.image import image_from_array
 

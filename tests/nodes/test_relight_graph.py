@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import graphface
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.image import image_from_array
 
 
@@ -62,7 +62,7 @@ class TestRelight:
 def planned(scene, outputs=("image",)):
     """Fate and reason of every node for a scene, before anything runs."""
     from graphface import Evaluator
-    from graphface.plan import plan
+    from graphface.evaluate.plan import plan
 
     graph = graphface.load("relight")
     bound = graph.bind({"photo": image_from_array(np.zeros((8, 8, 3), np.uint8)), "scene": scene})

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from graphface import UnreadableFile
-from graphface.cache.digest import digest_value
 from graphface.nodes import detail, sh
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.render.spread import surroundings
 from graphface.nodes.representation import Representation, bundle, given
 from graphface.nodes.types import Camera, Image, Landmarks, Lighting, Mesh, Segmentation, Surface
+from graphface.values.digest import digest_value
 
 
 @pytest.fixture

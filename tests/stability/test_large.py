@@ -11,9 +11,9 @@ import tracemalloc
 import pytest
 
 from graphface import Evaluator, Graph, MemoryTier, Registry, load
-from graphface.effective import effective
-from graphface.history import identities
-from graphface.plan import plan
+from graphface.document.effective import effective
+from graphface.evaluate.plan import plan
+from graphface.report.history import identities
 
 NODES = 100_000 if os.environ.get("GRAPHFACE_LARGE") else 10_000
 WIDTH = 100

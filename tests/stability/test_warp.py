@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import graphface
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.image import image_from_array
 
 pytestmark = pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")

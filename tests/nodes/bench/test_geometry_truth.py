@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from graphface import UnreadableFile
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.bench.geometry_photos import automatic_photos, portrait_residuals, pose_photos
 from graphface.nodes.bench.geometry_truth import correlation, geometry_truth
 from graphface.nodes.commands import models

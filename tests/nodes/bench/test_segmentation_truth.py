@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphface import UnreadableFile
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.bench.segmentation_truth import LABELS, MATTINGS, boundary_error, iou, segment_truth
 
 

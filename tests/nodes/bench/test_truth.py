@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from graphface import UnreadableFile
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.bench.truth import LIGHTS, known_scene, relight_truth
 from graphface.nodes.image import read_image
 from graphface.nodes.render.irradiance import irradiance

@@ -11,7 +11,7 @@ import pytest
 from portraits import portrait, surface_of
 
 from graphface import UsageError
-from graphface.assets import AssetUnavailable
+from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.image import image_from_array
 from graphface.nodes.landmarks.facemesh import facemesh
 from graphface.nodes.masks import network as module

@@ -1,0 +1,135 @@
+"""A JSON Schema of graph files, made from the registry, so that editors complete and check while typing.
+
+In a graph file, above the first line:  # yaml-language-server: $schema=graphface.document.schema.json
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from graphface.document.document import TAKEN
+from graphface.node import Operator
+from graphface.registry import Registry
+
+_NAME = "^[A-Za-z_][A-Za-z0-9_-]*(/[A-Za-z_][A-Za-z0-9_-]*)*$"
+_GRAPH_FILE = r"\.ya?ml$"
+
+
+def graph_schema(registry: Registry) -> dict[str, Any]:
+    """The schema (draft 2020-12) of a graph file that uses the registry's operators and types."""
+    operators = [registry.operator(name) for name in registry.names()]
+    node = _node_schema(operators)
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "graphface graph",
+        "type": "object",
+        "required": ["graphface"],
+        "additionalProperties": False,
+        "properties": {
+            "graphface": {"const": 1, "description": "Version of the format."},
+            "name": {"type": ["string", "null"]},
+            "doc": {"type": ["string", "null"]},
+            "extends": {"type": ["string", "null"], "pattern": _GRAPH_FILE, "description": "Graph file to start from."},
+            "inputs": _named({"$ref": "#/$defs/input"}, taken=TAKEN),
+            "nodes": _named({"$ref": "#/$defs/node"}),
+            "outputs": _named({"$ref": "#/$defs/reference"}),
+            "variants": _named(_named({"$ref": "#/$defs/node"})),
+            "profiles": _named(_named({"type": "object", "description": "Parameters to set."})),
+        },
+        "$defs": {
+            "reference": {"type": "string", "description": "A node or input, and fields of it: face.normals"},
+            "type": {"type": "string", "examples": registry.type_names()},
+            "input": {
+                "anyOf": [
+                    {"$ref": "#/$defs/type"},
+                    {
+                        "type": "object",
+                        "required": ["type"],
+                        "additionalProperties": False,
+                        "properties": {"type": {"$ref": "#/$defs/type"}, "default": {}, "doc": {"type": "string"}},
+                    },
+                ]
+            },
+            "node": node,
+        },
+    }
+
+
+def _node_schema(operators: Iterable[Operator]) -> dict[str, Any]:
+    """One node; null removes it."""
+    known = list(operators)
+    names = [{"const": op.name, "description": op.doc.partition("\n")[0]} for op in known]
+    return {
+        "type": ["object", "null"],
+        "additionalProperties": False,
+        "properties": {
+            "use": {"anyOf": [*names, {"type": "string", "pattern": _GRAPH_FILE}]},
+            "in": {"type": ["object", "null"]},
+            "with": {"type": ["object", "null"]},
+            "doc": {"type": "string"},
+        },
+        "allOf": [_operator_rule(op) for op in known],
+    }
+
+
+def _operator_rule(operator: Operator) -> dict[str, Any]:
+    """If `use` names this operator, then its ports and parameters are these."""
+    parameters = operator.parameters.model_json_schema(ref_template="#/$defs/{model}", schema_generator=_lenient())
+    wire = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}, {"type": "null"}]}
+    ports = {
+        port.name: {**wire, "description": f"{port.type}{' (lazy)' if port.lazy else ''}"}
+        for port in operator.inputs.values()
+    }
+    rule: dict[str, Any] = {
+        "in": {"type": ["object", "null"], "additionalProperties": False, "properties": ports},
+        "with": {"type": ["object", "null"], "additionalProperties": False, "properties": _inlined(parameters)},
+    }
+    return {
+        "if": {"required": ["use"], "properties": {"use": {"const": operator.name}}},
+        "then": {"description": operator.doc, "properties": rule},
+    }
+
+
+def _lenient() -> type[Any]:
+    """Pydantic's generator, letting pass a parameter that no JSON Schema describes (a callable, say)."""
+    from pydantic.json_schema import GenerateJsonSchema, JsonSchemaWarningKind
+
+    class Lenient(GenerateJsonSchema):
+        def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> dict[str, Any]:
+            return {}
+
+        def emit_warning(self, kind: JsonSchemaWarningKind, detail: str) -> None:
+            """A default that JSON cannot hold is left out; nobody needs to hear of it."""
+
+    return Lenient
+
+
+def _inlined(schema: dict[str, Any]) -> dict[str, Any]:
+    """The properties of a parameter model with its own definitions put in place of references to them."""
+    definitions = schema.get("$defs", {})
+
+    def resolve(part: Any, depth: int) -> Any:
+        if isinstance(part, list):
+            return [resolve(p, depth) for p in part]
+        if not isinstance(part, dict):
+            return part
+        reference = part.get("$ref", "")
+        if reference:
+            name = reference.rpartition("/")[2]
+            return resolve(definitions[name], depth + 1) if depth < 8 and name in definitions else {}
+        return {key: resolve(value, depth) for key, value in part.items()}
+
+    properties: dict[str, Any] = resolve(schema.get("properties", {}), 0)
+    return properties
+
+
+def _named(values: dict[str, Any], taken: frozenset[str] = frozenset()) -> dict[str, Any]:
+    """A mapping from names to `values`; an empty one may be written as nothing.
+
+    Not an `anyOf` with null: where none of its options fits, checkers mark the whole section instead of the mistake.
+    """
+    names: dict[str, Any] = {"pattern": _NAME}
+    if taken:
+        names["not"] = {"enum": sorted(taken)}
+    return {"type": ["object", "null"], "propertyNames": names, "additionalProperties": values}

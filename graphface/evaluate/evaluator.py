@@ -1,0 +1,100 @@
+"""Evaluation: what to keep, how many threads, what to do about NaN; one run of it is `graphface.evaluate.run`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+from graphface.cache.memory import MISSING, MemoryTier
+from graphface.evaluate.observe import Observer, Record, State
+from graphface.graph.wiring import Ref, Step
+from graphface.values.frozen import freeze
+
+if TYPE_CHECKING:
+    from graphface.cache.disk import DiskTier
+    from graphface.graph.graph import Graph
+    from graphface.graph.inputs import Bound
+
+Guard = Literal["off", "warn", "error"]
+
+
+@dataclass(eq=False)
+class Result(Mapping[str, Any]):
+    """The outputs of a run by name, and the `records` of every node it touched."""
+
+    outputs: dict[str, Any]
+    records: list[Record] = field(default_factory=list, repr=False)
+
+    def __getitem__(self, name: str) -> Any:
+        return self.outputs[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.outputs)
+
+    def __len__(self) -> int:
+        return len(self.outputs)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What nodes fell back on, as "node: sentence"."""
+        return [f"{r.name}: {w}" for r in self.records for w in r.warnings]
+
+
+class Evaluator:
+    """Evaluates graphs, keeping what it computed.
+
+    Args:
+        memory: the memory tier; None memoizes nothing beyond one run.
+        disk: a disk tier to look into and to fill.
+        threads: how many nodes may run at once.
+        in_flight: bytes of live values above which nodes run one at a time, whatever `threads` says.
+        guard: what to do about NaN and infinity in a node's output.
+        observers: see `graphface.evaluate.observe`.
+    """
+
+    def __init__(
+        self,
+        *,
+        memory: MemoryTier | None = None,
+        disk: DiskTier | None = None,
+        threads: int = 1,
+        in_flight: int = 4 << 30,
+        guard: Guard = "error",
+        observers: Sequence[Observer] = (),
+    ) -> None:
+        self.memory = memory
+        self.disk = disk
+        self.threads = max(1, threads)
+        self.in_flight = in_flight
+        self.guard = guard
+        self.observers = tuple(observers)
+        self.finite: dict[int, Any] = {}
+
+    def run(self, graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]) -> Result:
+        """The values of `targets`.
+
+        Raises:
+            InputError: an input that is needed was not given.
+            RunFailed: a node failed; outputs that did not need it are in its `finished`.
+            KeyboardInterrupt: between nodes; what was computed stays memoized.
+        """
+        from graphface.evaluate.run import Run
+
+        values, records = Run(self, graph, bound, targets).go()
+        return Result(values, records)
+
+    def find(self, key: bytes, step: Step | None) -> tuple[Any, State]:
+        """A memoized value and the tier that had it, or `MISSING`."""
+        if self.memory is not None:
+            value = self.memory.get(key)
+            if value is not MISSING:
+                return value, "memory"
+        if self.disk is not None and step is not None:
+            value = self.disk.get(key, step.operator.output_annotation)
+            if value is not MISSING:
+                arrays = freeze(value)
+                if self.memory is not None:
+                    self.memory.put(key, value, self.disk.cost(key), arrays)
+                return value, "disk"
+        return MISSING, "ran"

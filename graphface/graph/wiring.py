@@ -1,0 +1,341 @@
+"""Names to operators: the flat graph checked against ports, parameters and types, and put in an order that runs.
+
+Everything wrong is found in one pass and reported together: unknown operators, ports and parameters, values out of
+range, a mask plugged into a picture, a required port left open, a cycle. After this nothing about the graph can fail
+but the operators themselves.
+
+A graph's inputs and its steps share one numbering, the *slot*: inputs come first, then the steps in an order where
+every step stands after what it depends on. Evaluation works on slots alone, so a node costs list indexing and no names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from graphface.document.document import InputEntry, Setting
+from graphface.document.flat import Composition, FlatNode, FlatWire
+from graphface.document.located import Place
+from graphface.document.references import Target
+from graphface.errors import DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
+from graphface.node import InputPort, Operator
+from graphface.registry import Registry
+from graphface.values.port_types import ListOf, PortType, output_fields
+
+
+@dataclass(frozen=True)
+class Ref:
+    """A slot, and the fields taken of its value."""
+
+    slot: int
+    fields: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Argument:
+    """What is plugged into one port."""
+
+    port: str
+    refs: tuple[Ref, ...]
+    is_list: bool
+    lazy: bool
+
+
+@dataclass(frozen=True)
+class GraphInput:
+    slot: int
+    name: str
+    type: PortType
+    default: Setting | None
+    doc: str
+    place: Place
+
+
+@dataclass(eq=False)
+class Step:
+    """One node, ready to run.
+
+    `eager` and `lazy` are the slots behind its ports; `absent` are the ports that get None: nothing is plugged in.
+    `plain` pairs ports with slots where every port is eager and takes one whole value: the common, fast case.
+    """
+
+    slot: int
+    name: str
+    operator: Operator
+    arguments: tuple[Argument, ...]
+    parameters: dict[str, Any]
+    settings: dict[str, Setting]
+    place: Place
+    eager: tuple[int, ...] = field(init=False)
+    lazy: tuple[int, ...] = field(init=False)
+    plain: tuple[tuple[str, int], ...] | None = field(init=False)
+    absent: dict[str, None] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.eager = tuple(dict.fromkeys(r.slot for a in self.arguments if not a.lazy for r in a.refs))
+        self.lazy = tuple(dict.fromkeys(r.slot for a in self.arguments if a.lazy for r in a.refs))
+        simple = all(len(a.refs) == 1 and not (a.lazy or a.is_list or a.refs[0].fields) for a in self.arguments)
+        self.absent = {port: None for port in self.operator.needs_none if all(a.port != port for a in self.arguments)}
+        self.plain = tuple((a.port, a.refs[0].slot) for a in self.arguments) if simple and not self.absent else None
+
+
+@dataclass(frozen=True)
+class Wiring:
+    inputs: dict[str, GraphInput]
+    steps: list[Step]
+    slots: dict[str, int]
+    outputs: dict[str, Ref]
+
+
+def wire(composition: Composition, registry: Registry) -> Wiring:
+    """Look up, check and order a flat graph.
+
+    Raises:
+        DocumentError: with every problem found.
+    """
+    return _Wirer(composition, registry).run()
+
+
+def field_type(annotation: PortType, fields: tuple[str, ...]) -> PortType | None:
+    """The type of `value.field.field...`, or None where an alternative has no such field.
+
+    A field of a value that may be None may be None too: there is nothing to take it from.
+    """
+    current = annotation
+    for name in fields:
+        offered = [output_fields(a) if isinstance(a, type) else {} for a in current.alternatives]
+        if not all(name in ports for ports in offered):
+            return None
+        atoms = dict.fromkeys(atom for ports in offered for atom in ports[name].alternatives)
+        optional = current.optional or any(ports[name].optional for ports in offered)
+        current = PortType(tuple(atoms), optional)
+    return current
+
+
+class _Wirer:
+    def __init__(self, composition: Composition, registry: Registry) -> None:
+        self._graph = composition
+        self._registry = registry
+        self._problems: list[Problem] = list(composition.problems)
+        self._operators: dict[str, Operator | None] = {}
+        self._bare: dict[str, dict[str, Any]] = {}
+
+    def run(self) -> Wiring:
+        inputs = {
+            name: GraphInput(slot, name, self._input_type(entry), entry.default, entry.doc, entry.place)
+            for slot, (name, entry) in enumerate(self._graph.inputs.items())
+        }
+        operators = {name: self._operator(node) for name, node in self._graph.nodes.items()}
+        types = {name: entry.type for name, entry in inputs.items()}
+        types |= {name: op.output for name, op in operators.items() if op is not None}
+        slots = {name: slot for slot, name in enumerate([*inputs, *self._order(operators)])}
+        steps = []
+        for name in list(slots)[len(inputs) :]:
+            operator, node = operators[name], self._graph.nodes[name]
+            if operator is None:
+                continue
+            order = list(operator.inputs)
+            arguments = tuple(sorted(self._arguments(node, operator, types, slots), key=lambda a: order.index(a.port)))
+            settings, parameters = self._parameters(node, operator)
+            steps.append(Step(slots[name], name, operator, arguments, parameters, settings, node.place))
+        outputs = {}
+        for name, target in self._graph.outputs.items():
+            if self._checked_type(target, types, None, f"output {name!r}") is not None:
+                outputs[name] = Ref(slots[target.name], target.fields)
+        if self._problems:
+            raise DocumentError(self._problems)
+        return Wiring(inputs, steps, slots, outputs)
+
+    def _input_type(self, entry: InputEntry) -> PortType:
+        try:
+            return self._registry.type(entry.type.value)
+        except UnknownType as error:
+            self._problem(f"unknown type {error.name!r} of input {entry.name!r}", entry.type.place, error.nearest)
+            return PortType((object,), optional=True)
+
+    def _operator(self, node: FlatNode) -> Operator | None:
+        name = node.use.value
+        if name not in self._operators:
+            try:
+                self._operators[name] = self._registry.operator(name)
+            except UnknownOperator as error:
+                self._operators[name] = None
+                self._problem(f"unknown operator {name!r}", node.use.place, error.nearest)
+                return None
+        elif self._operators[name] is None:
+            self._problem(f"unknown operator {name!r}", node.use.place)
+        return self._operators[name]
+
+    # --- order ------------------------------------------------------------------------------------
+
+    def _order(self, operators: Mapping[str, Operator | None]) -> Iterator[str]:
+        """Node names so that each stands after what it depends on (Kahn); a cycle is a problem."""
+        nodes = self._graph.nodes
+        parents = {
+            name: {t.name for w in node.wires.values() for t in w.targets if t.name in nodes}
+            for name, node in nodes.items()
+        }
+        children: dict[str, list[str]] = {}
+        for name, above in parents.items():
+            for parent in above:
+                children.setdefault(parent, []).append(name)
+        waiting = {name: len(above) for name, above in parents.items()}
+        ready = [name for name, count in waiting.items() if count == 0]
+        done = 0
+        while done < len(ready):
+            name = ready[done]
+            done += 1
+            for child in children.get(name, ()):
+                waiting[child] -= 1
+                if waiting[child] == 0:
+                    ready.append(child)
+        if done < len(nodes):
+            self._report_cycle({name: above for name, above in parents.items() if waiting[name] > 0})
+            ready += [name for name, count in waiting.items() if count > 0]
+        return iter(ready)
+
+    def _report_cycle(self, parents: Mapping[str, set[str]]) -> None:
+        import networkx
+
+        graph = networkx.DiGraph((above, name) for name, group in parents.items() for above in group)
+        cycle = [edge[0] for edge in networkx.find_cycle(graph)]
+        first = min(cycle, key=lambda n: self._graph.nodes[n].place.line)
+        start = cycle.index(first)
+        path = [*cycle[start:], *cycle[:start], first]
+        self._problem(f"a cycle: {' -> '.join(path)}", self._graph.nodes[first].place)
+
+    # --- ports ------------------------------------------------------------------------------------
+
+    def _arguments(
+        self, node: FlatNode, operator: Operator, types: Mapping[str, PortType], slots: Mapping[str, int]
+    ) -> Iterator[Argument]:
+        for port_name, flat in node.wires.items():
+            port = operator.inputs.get(port_name)
+            if port is None:
+                if port_name not in node.carried:
+                    self._unknown_port(node, operator, port_name, flat)
+                continue
+            if flat.broken:
+                continue
+            as_list = self._check_wire(node, port, flat, types)
+            if as_list is not None and all(t.name in slots for t in flat.targets):
+                refs = tuple(Ref(slots[t.name], t.fields) for t in flat.targets)
+                yield Argument(port_name, refs, as_list, port.lazy)
+        for port in operator.inputs.values():
+            if port.required and port.name not in node.wires:
+                self._problem(
+                    f"port {port.name!r} ({port.type}) of node {node.name!r} ({operator.name}) is not connected",
+                    node.place,
+                )
+
+    def _check_wire(
+        self, node: FlatNode, port: InputPort, flat: FlatWire, types: Mapping[str, PortType]
+    ) -> bool | None:
+        """Whether the port gets a list; None where the wire does not fit."""
+        found = [
+            self._checked_type(t, types, flat.place, f"port {port.name!r} of node {node.name!r}") for t in flat.targets
+        ]
+        if any(t is None for t in found):
+            return None
+        item = next((a.item for a in port.type.alternatives if isinstance(a, ListOf)), None)
+        single = len(found) == 1 and not flat.is_list
+        if single and found[0] is not None and port.type.accepts(found[0]):
+            return False
+        if item is not None and all(t is not None and item.accepts(t) for t in found):
+            return True
+        for target, source in zip(flat.targets, found, strict=True):
+            wanted = item if item is not None and not single else port.type
+            if source is not None and not wanted.accepts(source):
+                hint = " (it may be None; the port is not optional)" if source.optional and not wanted.optional else ""
+                self._problem(
+                    f"{target} gives {source}, but port {port.name!r} of node {node.name!r} "
+                    f"({self._graph.nodes[node.name].use.value}) takes {wanted}{hint}",
+                    flat.place,
+                )
+                return None
+        self._problem(f"port {port.name!r} of node {node.name!r} takes one {port.type}, not a list", flat.place)
+        return None
+
+    def _checked_type(
+        self, target: Target, types: Mapping[str, PortType], place: Place | None, what: str
+    ) -> PortType | None:
+        """The type behind a target; None, with the problem noted, where a field does not exist."""
+        base = types.get(target.name)
+        if base is None:
+            return None
+        found = field_type(base, target.fields)
+        if found is None:
+            offered = [name for a in base.alternatives if isinstance(a, type) for name in output_fields(a)]
+            has = f"it has {', '.join(offered)}" if offered else "it has none"
+            wanted = ".".join(target.fields)
+            self._problem(
+                f"{target.name!r} ({base}) has no output {wanted!r} for {what} ({has})",
+                place,
+                nearest_names(target.fields[0], offered),
+            )
+        return found
+
+    def _unknown_port(self, node: FlatNode, operator: Operator, port: str, flat: FlatWire) -> None:
+        if port in operator.parameters.model_fields:
+            self._problem(f"{port!r} is a parameter of {operator.name}, not a port; set it under 'with'", flat.place)
+            return
+        known = ", ".join(operator.inputs) or "none"
+        self._problem(
+            f"{operator.name} has no port {port!r} (it has {known})", flat.place, nearest_names(port, operator.inputs)
+        )
+
+    # --- parameters -------------------------------------------------------------------------------
+
+    def _parameters(self, node: FlatNode, operator: Operator) -> tuple[dict[str, Setting], dict[str, Any]]:
+        """The settings that apply, and all parameters validated."""
+        if not node.settings:
+            if not self._bare.get(operator.name):  # what is wrong without settings is wrong at every such node
+                self._bare[operator.name] = self._validate(node, operator, {})
+            return {}, self._bare[operator.name]
+        model = operator.parameters
+        settings = {}
+        for name, setting in node.settings.items():
+            if name in model.model_fields:
+                settings[name] = setting
+            elif name in node.carried:
+                continue
+            elif name in operator.inputs:
+                self._problem(f"{name!r} is a port of {operator.name}; connect it under 'in'", setting.place)
+            else:
+                known = ", ".join(model.model_fields) or "none"
+                self._problem(
+                    f"{operator.name} has no parameter {name!r} (it has {known})",
+                    setting.place,
+                    nearest_names(name, model.model_fields),
+                )
+        return settings, self._validate(node, operator, settings)
+
+    def _validate(self, node: FlatNode, operator: Operator, settings: Mapping[str, Setting]) -> dict[str, Any]:
+        model = operator.parameters
+        try:
+            checked: BaseModel = model.model_validate({name: s.value for name, s in settings.items()})
+        except ValidationError as error:
+            for detail in error.errors(include_url=False):
+                name = str(detail["loc"][0]) if detail["loc"] else ""
+                setting = settings.get(name)
+                place = setting.place if setting is not None else node.place
+                inside = "".join(f"[{part!r}]" for part in detail["loc"][1:])
+                if detail["type"] == "missing" and setting is None:
+                    message = f"parameter {name!r} of node {node.name!r} ({operator.name}) is required"
+                else:
+                    message = f"parameter {name!r}{inside} of node {node.name!r} ({operator.name}): {_reason(detail)}"
+                self._problem(message, place)
+            return {}
+        return {name: getattr(checked, name) for name in model.model_fields}
+
+    def _problem(self, message: str, place: Place | None, nearest: list[str] | tuple[str, ...] = ()) -> None:
+        self._problems.append(Problem(message, place, tuple(nearest)))
+
+
+def _reason(detail: Any) -> str:
+    text = str(detail["msg"])
+    shown = repr(detail["input"])
+    return f"{text[:1].lower()}{text[1:]}, got {shown if len(shown) <= 60 else shown[:57] + '...'}"

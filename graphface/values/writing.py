@@ -1,0 +1,146 @@
+"""Results to files: by the type's own writer, or as plain arrays.
+
+A file appears whole or not at all: it is written beside its place under another name and then renamed.
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from graphface.errors import RefusedOutput, UnwritableFile
+from graphface.values.frozen import arrays_in
+from graphface.values.port_types import ArrayType, PortType
+
+
+def write_output(value: Any, declared: PortType, path: Path, *, text: Mapping[str, str] | None = None) -> None:
+    """Write a value as the suffix says: .npy (an array), .npz (every array in it), else what its type can write.
+
+    Args:
+        text: words to keep inside the file, where its type can.
+
+    Raises:
+        UnwritableFile: the folder is missing or read-only, or the type cannot be written as that.
+    """
+    if path.suffix == ".npy" and isinstance(value, np.ndarray):
+        _write_with(path, lambda beside: np.save(beside, value, allow_pickle=False))
+    elif path.suffix == ".npz":
+        named = {name or "value": array for name, array in arrays_in(value)}
+        if not named:
+            raise UnwritableFile(path, f"a {type(value).__name__} holds no array")
+        _write_with(path, lambda beside: np.savez(beside, **named))  # type: ignore[arg-type]
+    else:
+        writer = _writer(value, declared)
+        if writer is None:
+            raise UnwritableFile(path, f"a {type(value).__name__} can only be written as .npz")
+        try:
+            if text and "text" in inspect.signature(writer).parameters:
+                writer(value, path, text=text)
+            else:
+                writer(value, path)
+        except OSError as error:
+            raise UnwritableFile(path, error.strerror or str(error)) from None
+
+
+def check_folder(path: Path) -> None:
+    """See before anything runs that a result could be written there.
+
+    Raises:
+        RefusedOutput: the folder is missing or read-only, or the path is a folder.
+    """
+    folder = path.parent
+    try:
+        if path.is_dir():
+            raise RefusedOutput(path, "is a folder; name a file in it")
+        if not folder.is_dir():
+            raise RefusedOutput(path, f"there is no folder {str(folder)!r}")
+        handle, name = tempfile.mkstemp(prefix=".graphface-", dir=folder)
+    except OSError as error:
+        raise RefusedOutput(path, f"cannot be written: {error.strerror}") from None
+    os.close(handle)
+    os.unlink(name)
+
+
+def check_output(path: Path, declared: PortType) -> None:
+    """As `check_folder`, and that a value of the declared type can be written under that suffix.
+
+    Raises:
+        RefusedOutput: the folder is missing or read-only, the path is a folder, or no writer knows the suffix.
+    """
+    check_folder(path)
+    known: list[str] = []
+    for atom in declared.alternatives:
+        suffixes = getattr(atom, "suffixes", ())
+        if atom is object or (getattr(atom, "to_file", None) is not None and not suffixes):
+            return  # the value's own writer will tell
+        known += (*suffixes, ".npy") if _is_array(atom) else suffixes
+    known.append(".npz")
+    if path.suffix.lower() not in known:
+        reason = f"no {declared} can be written as {path.suffix!r}" if path.suffix else "its name has no suffix"
+        raise RefusedOutput(path, f"{reason}; use {' or '.join(dict.fromkeys(known))}")
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder for results, where there is none.
+
+    Raises:
+        RefusedOutput: a file has its name, or it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = "is a file; name a folder for the results" if folder.is_file() else error.strerror or str(error)
+        raise RefusedOutput(folder, reason) from None
+
+
+@contextmanager
+def beside(path: Path) -> Iterator[Path]:
+    """A temporary path in the same folder that takes the place of `path` when the block succeeds.
+
+    Raises:
+        UnwritableFile: the folder cannot be written to.
+    """
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    except OSError as error:
+        raise UnwritableFile(path, f"cannot write into the folder: {error.strerror}") from None
+    os.close(handle)
+    try:
+        yield Path(name)
+        os.chmod(name, 0o666 & ~_umask())
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def _write_with(path: Path, write: Callable[[Path], None]) -> None:
+    try:
+        with beside(path) as temporary:
+            write(temporary)
+    except OSError as error:
+        raise UnwritableFile(path, error.strerror or str(error)) from None
+
+
+def _writer(value: Any, declared: PortType) -> Callable[..., None] | None:
+    for atom in declared.alternatives:
+        if isinstance(atom, ArrayType) and atom.to_file is not None and atom.problem(value) is None:
+            return atom.to_file
+    return getattr(type(value), "to_file", None)
+
+
+def _is_array(atom: object) -> bool:
+    return isinstance(atom, ArrayType) or (isinstance(atom, type) and issubclass(np.ndarray, atom))
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,413 @@
+"""Every node says why it ran or did not, in the process and from one command to the next."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from toys import toy_registry
+
+from graphface import Evaluator, Graph, MemoryTier, Registry, RunFailed, load
+from graphface.cache.disk import DiskTier
+from graphface.cache.folder import MARK
+from graphface.cli import main
+from graphface.report.explain import ELSEWHERE, UNCHANGED, Explained, Sizes, explain, with_results
+from graphface.report.history import History, Remember
+
+NODES = """\
+graphface: 1
+name: lab
+inputs: {x: float}
+nodes:
+  left: {use: toy.add, in: {a: x}, with: {plus: 1}}
+  right: {use: toy.add, in: {a: x}, with: {plus: 2}}
+  join: {use: toy.add, in: {a: left, b: right}}
+  grid: {use: toy.grid}
+  pair: {use: toy.pair, in: {grid: grid}}
+  mean: {use: toy.mean, in: {grid: pair.low}}
+outputs: {join: join, mean: mean}
+"""
+
+
+class Lab:
+    """A cache and a history that several requests share."""
+
+    def __init__(self, folder: Path, *, disk: bool = True, budget: int = 1 << 26) -> None:
+        self.folder = folder
+        self.said: list[str] = []
+        self.memory = None if disk else MemoryTier(budget)
+        self.disk = DiskTier(folder, budget, self.said.append) if disk else None
+        self.history = History.beside(folder if disk else None)
+
+    def evaluator(self, *observers: Any) -> Evaluator:
+        return Evaluator(memory=self.memory, disk=self.disk, observers=observers)
+
+    def before(self, graph: Graph, outputs: list[str] | None = None, **inputs: Any) -> dict[str, Explained]:
+        """What is said without running anything."""
+        asked = graph.bind(inputs), graph.targets(outputs), self.evaluator(), self.history
+        return {entry.name: entry for entry in explain(graph, *asked)}
+
+    def run(self, graph: Graph, outputs: list[str] | None = None, **inputs: Any) -> dict[str, Explained]:
+        """What is said of a run."""
+        bound, targets = graph.bind(inputs), graph.targets(outputs)
+        evaluator = self.evaluator(Sizes(), Remember(self.history, graph, bound, targets, self.disk))
+        explained = explain(graph, bound, targets, evaluator, self.history)
+        try:
+            records = evaluator.run(graph, bound, targets).records
+        except RunFailed as failure:
+            records = failure.records
+        return {entry.name: entry for entry in with_results(explained, records, self.said)}
+
+
+@pytest.fixture(params=["memory", "disk"])
+def lab(request: pytest.FixtureRequest, tmp_path: Path) -> Lab:
+    return Lab(tmp_path / "cache", disk=request.param == "disk")
+
+
+@pytest.fixture
+def disk_lab(tmp_path: Path) -> Lab:
+    return Lab(tmp_path / "cache")
+
+
+def graph_of(text: str = NODES, registry: Registry | None = None, **choices: Any) -> Graph:
+    return load(text, registry=registry or toy_registry(), **choices)
+
+
+class TestReasons:
+    def test_first_seen(self, lab: Lab) -> None:
+        """A node that never ran says so."""
+        assert {e.reason for e in lab.run(graph_of(), x=1.0).values()} == {"first seen"}
+
+    def test_nothing_changed(self, lab: Lab) -> None:
+        """A memoized output says that nothing changed, and what only it needs is skipped."""
+        lab.run(graph_of(), x=1.0)
+        found = lab.run(graph_of(), x=1.0)
+        assert (found["join"].fate in ("memory", "disk"), found["join"].reason) == (True, UNCHANGED)
+        assert found["left"].reason == "only join needs it, and that is memoized"
+
+    def test_parameter(self, lab: Lab) -> None:
+        """A changed parameter is named with both values; what lies below names the node."""
+        lab.run(graph_of(), x=1.0)
+        found = lab.before(graph_of(set={"left.plus": 5}), x=1.0)
+        assert found["left"].reason == "parameter plus changed from 1.0 to 5.0"
+        assert found["join"].reason == "left changed above it"
+        assert (found["right"].fate, found["right"].reason) == (found["mean"].fate, UNCHANGED)
+
+    def test_parameter_behind_a_memoized_value(self, lab: Lab) -> None:
+        """A node that was not even looked up last time is compared with what it was then."""
+        lab.run(graph_of(), x=1.0)
+        lab.run(graph_of(), x=1.0)
+        assert lab.before(graph_of(set={"left.plus": 5}), x=1.0)["left"].reason.startswith("parameter plus changed")
+
+    def test_long_parameters(self, lab: Lab) -> None:
+        """Long values that differ at the end differ."""
+        text = "graphface: 1\nnodes:\n  n: {use: toy.options}\n"
+        lab.run(graph_of(text, set={"n.items": [0] * 500}), ["n"])
+        found = lab.before(graph_of(text, set={"n.items": [0] * 499 + [1]}), ["n"])
+        assert found["n"].reason.startswith("parameter items changed")
+        assert len(found["n"].reason) < 600
+
+    def test_input(self, lab: Lab) -> None:
+        """A changed graph input is named."""
+        lab.run(graph_of(), x=1.0)
+        found = lab.before(graph_of(), x=2.0)
+        assert found["left"].reason == "input x changed"
+        assert found["join"].reason == "left changed above it"
+
+    def test_file(self, lab: Lab, tmp_path: Path) -> None:
+        """A file is an input by its content: written anew with the same it has not changed, with other it has."""
+        import numpy as np
+
+        from graphface.nodes.image import write_picture
+
+        node = "{use: image.encode, in: {photo: photo}, with: {encoding: srgb}}"
+        text = f"graphface: 1\ninputs: {{photo: Image}}\nnodes: {{n: {node}}}\n"
+        photo, graph = tmp_path / "photo.png", load(text)
+        write_picture(np.zeros((4, 4, 3), np.uint8), photo)
+        lab.run(graph, ["n"], photo=str(photo))
+        content = photo.read_bytes()
+        photo.unlink()
+        photo.write_bytes(content)
+        assert lab.before(graph, ["n"], photo=str(photo))["n"].reason == UNCHANGED
+        write_picture(np.ones((4, 4, 3), np.uint8), photo)
+        assert lab.before(graph, ["n"], photo=str(photo))["n"].reason == "input photo changed"
+
+    def test_connection(self, lab: Lab) -> None:
+        """A port plugged elsewhere says from where to where."""
+        lab.run(graph_of(), x=1.0)
+        found = lab.before(graph_of(NODES.replace("b: right", "b: left")), x=1.0)
+        assert found["join"].reason == "port b is connected to left, was right"
+
+    def test_connection_to_another_field(self, lab: Lab) -> None:
+        """Another field of the same node is another connection."""
+        lab.run(graph_of(), x=1.0)
+        other = NODES.replace(
+            "mean: {use: toy.mean, in: {grid: pair.low}}", "mean: {use: toy.takes_none, in: {grid: pair.low}}"
+        )
+        lab.run(graph_of(other), x=1.0)
+        found = lab.before(graph_of(other.replace("pair.low", "pair.high")), x=1.0)
+        assert found["mean"].reason == "port grid is connected to pair.high, was pair.low"
+
+    def test_unplugged(self, lab: Lab) -> None:
+        """A port with nothing in it any more says so."""
+        lab.run(graph_of(), x=1.0)
+        found = lab.before(graph_of(NODES.replace(", b: right", "")), x=1.0)
+        assert found["join"].reason == "port b is connected to nothing, was right"
+
+    def test_operator(self, lab: Lab) -> None:
+        """A replaced operator names both."""
+        lab.run(graph_of(), x=1.0)
+        found = lab.before(graph_of(replace={"join": "toy.subtract"}), x=1.0)
+        assert found["join"].reason == "operator changed from toy.add to toy.subtract"
+
+    def test_code(self, lab: Lab, tmp_path: Path) -> None:
+        """An edited operator says that its code changed; what lies below names it."""
+        plugin = tmp_path / "plugin.py"
+        source = "from graphface import node\n@node('mine.twice')\ndef twice(a: float) -> float:\n    return 2 * a\n"
+        text = NODES.replace("left: {use: toy.add, in: {a: x}, with: {plus: 1}}", "left: {use: mine.twice, in: {a: x}}")
+        plugin.write_text(source)
+        lab.run(load(text, registry=toy_registry(), plugins=[plugin]), x=1.0)
+        plugin.write_text(source.replace("2 * a", "2 * a + 1"))
+        found = lab.before(load(text, registry=toy_registry(), plugins=[plugin]), x=1.0)
+        assert found["left"].reason == "operator code changed"
+        assert found["join"].reason == "left changed above it"
+        assert found["mean"].reason == UNCHANGED
+
+    def test_other_graph(self, lab: Lab) -> None:
+        """A value that another graph computed is served and said to be another's."""
+        lab.run(graph_of(), x=1.0)
+        found = lab.run(graph_of(NODES.replace("name: lab", "name: other")), x=1.0)
+        assert {found["join"].reason, found["mean"].reason} == {ELSEWHERE}
+
+    def test_evicted_from_memory(self, tmp_path: Path) -> None:
+        """What a small memory budget dropped was evicted."""
+        lab = Lab(tmp_path, disk=False, budget=3000)
+        for plus in range(20):
+            lab.run(graph_of(set={"left.plus": plus}), x=1.0)
+        lab.run(graph_of(), x=1.0)
+        assert lab.memory is not None
+        lab.memory.clear()
+        assert {e.reason for e in lab.before(graph_of(), x=1.0).values()} == {"evicted"}
+
+    def test_evicted_from_disk(self, disk_lab: Lab) -> None:
+        """What was stored and is not there any more was evicted."""
+        disk_lab.run(graph_of(), x=1.0)
+        for entry in disk_lab.folder.glob("*/*.safetensors"):
+            entry.unlink()
+        assert {e.reason for e in disk_lab.before(graph_of(), x=1.0).values()} == {"evicted"}
+
+    def test_too_large(self, tmp_path: Path) -> None:
+        """What was never stored is not said to be evicted."""
+        lab = Lab(tmp_path / "cache", budget=5000)
+        large = graph_of("graphface: 1\nnodes:\n  grid: {use: toy.grid, with: {size: 128}}\n")
+        lab.run(large, ["grid"])
+        assert lab.before(large, ["grid"])["grid"].reason.startswith("not kept")
+
+    def test_damaged(self, disk_lab: Lab) -> None:
+        """A damaged entry is computed again and says so; so does what it needs."""
+        disk_lab.run(graph_of(), ["mean"])
+        for entry in disk_lab.folder.glob("*/*.safetensors"):
+            content = bytearray(entry.read_bytes())
+            content[-1] ^= 1
+            entry.write_bytes(content)
+        found = disk_lab.run(graph_of(), ["mean"])
+        assert {n: (e.fate, e.reason) for n, e in found.items() if n in ("grid", "pair", "mean")} == dict.fromkeys(
+            ("grid", "pair", "mean"), ("ran", "its stored result was damaged")
+        )
+        assert disk_lab.run(graph_of(), ["mean"])["mean"].reason == UNCHANGED
+
+    def test_failed(self, lab: Lab) -> None:
+        """A node that failed says why, those it blocks say so, and the next time it says that it had failed."""
+        text = NODES.replace("toy.add, in: {a: left, b: right}", "toy.fail, in: {a: left}").replace(
+            "outputs: {join: join,", "outputs: {join: end,"
+        )
+        graph = graph_of(text.replace("  grid:", "  end: {use: toy.add, in: {a: join}}\n  grid:", 1))
+        found = lab.run(graph, x=1.0)
+        assert (found["join"].fate, found["join"].reason) == ("failed", "ValueError: it broke")
+        assert (found["end"].fate, found["end"].reason) == ("blocked", "a node above it failed")
+        assert found["mean"].fate == "ran"
+        again = lab.before(graph, x=1.0)
+        assert again["join"].reason == "it failed when it last ran"
+        assert again["end"].reason == "first seen"
+        assert again["left"].reason == UNCHANGED
+
+
+class TestLazyPorts:
+    TEXT = """\
+graphface: 1
+inputs: {x: float}
+nodes:
+  a: {use: toy.add, in: {a: x}}
+  b: {use: toy.add, in: {a: x}, with: {plus: 7}}
+  gate: {use: toy.positive, in: {a: a, extra: b}}
+  c: {use: toy.add, in: {a: x}, with: {plus: 8}}
+  other: {use: toy.numpy_gate, in: {a: x, extra: c}}
+outputs: {gate: gate, other: other}
+"""
+
+    def test_maybe(self, lab: Lab) -> None:
+        """Before the run a node behind an open decision names who decides."""
+        assert lab.before(graph_of(self.TEXT), x=-1.0)["b"].reason == "gate decides when its inputs are there"
+
+    def test_declined(self, lab: Lab) -> None:
+        """After the run it has the reason of its own decider, not of another."""
+        found = lab.run(graph_of(self.TEXT), x=-1.0)
+        assert (found["b"].fate, found["b"].reason) == ("skipped", "a is not positive")
+        assert (found["c"].fate, found["c"].reason) == ("skipped", "its rule does not want it")
+
+    def test_wanted(self, lab: Lab) -> None:
+        """A node that was declined before is seen for the first time when it runs."""
+        lab.run(graph_of(self.TEXT), x=-1.0)
+        found = lab.run(graph_of(self.TEXT), x=1.0)
+        assert (found["b"].fate, found["b"].reason) == ("ran", "first seen")
+        assert found["a"].reason == "input x changed"
+
+
+class TestEqualNodes:
+    def test_one_for_both(self, lab: Lab) -> None:
+        """Of equal nodes one runs, and the other says which."""
+        text = "graphface: 1\ninputs: {x: float}\nnodes:\n"
+        text += "".join(f"  {name}: {{use: toy.add, in: {{a: x}}}}\n" for name in "ab")
+        found = lab.run(graph_of(text + "  c: {use: toy.add, in: {a: a, b: b}}\noutputs: {c: c}\n"), x=1.0)
+        assert sorted((e.fate, e.reason.partition(" ")[0]) for e in (found["a"], found["b"])) == [
+            ("ran", "equal"),
+            ("ran", "first"),
+        ]
+
+
+class TestNumbers:
+    def test_ran(self, lab: Lab) -> None:
+        """A node that ran has milliseconds, bytes and the beginning of its key."""
+        entry = lab.run(graph_of(), x=1.0)["grid"]
+        assert entry.milliseconds is not None
+        assert entry.milliseconds >= 0
+        assert entry.bytes == 4 * 4 * 8
+        assert len(entry.key) == 8
+
+    def test_memoized(self, lab: Lab) -> None:
+        """A memoized one has its bytes and no time."""
+        lab.run(graph_of(), ["grid"], x=1.0)
+        entry = lab.run(graph_of(), ["grid"], x=1.0)["grid"]
+        assert (entry.milliseconds, entry.bytes) == (None, 4 * 4 * 8)
+
+    def test_warnings(self, lab: Lab) -> None:
+        """What a node fell back on stands with it."""
+        graph = graph_of("graphface: 1\ninputs: {x: float}\nnodes: {n: {use: toy.fall_back, in: {a: x}}}\n")
+        assert lab.run(graph, ["n"], x=9.0)["n"].warnings == ("9.0 was too much",)
+
+
+class TestHistory:
+    def test_between_processes(self, disk_lab: Lab) -> None:
+        """What one process remembers another knows."""
+        disk_lab.run(graph_of(), x=1.0)
+        later = Lab(disk_lab.folder)
+        assert later.before(graph_of(set={"left.plus": 5}), x=1.0)["left"].reason.startswith("parameter plus changed")
+
+    @pytest.mark.parametrize("text", ["", "{", "[]", '{"left": {"key": 1}}', "\udcff"])
+    def test_unreadable(self, disk_lab: Lab, text: str) -> None:
+        """A damaged history is none."""
+        disk_lab.run(graph_of(), x=1.0)
+        (file,) = (disk_lab.folder / "history").iterdir()
+        file.write_text(text, encoding="utf-8", errors="surrogateescape")
+        assert History.beside(disk_lab.folder).last("lab") == {}
+
+    def test_nothing_stored(self, tmp_path: Path) -> None:
+        """A run that stores nothing leaves no folder that the cache would take for somebody else's."""
+        lab = Lab(tmp_path / "cache", budget=10)
+        lab.run(graph_of(), x=1.0)
+        assert not (tmp_path / "cache" / MARK).exists()
+        assert DiskTier(tmp_path / "cache", 1 << 20).stats().entries == 0
+
+    def test_names(self, disk_lab: Lab) -> None:
+        """Graphs of other names never share a history, whatever characters are in them and however long they are."""
+        for name in ("a b", "a_b", "../../up", "x" * 5000):
+            disk_lab.run(graph_of(NODES.replace("name: lab", f"name: '{name}'")), x=1.0)
+        assert len(list((disk_lab.folder / "history").iterdir())) == 4
+
+    def test_unwritable(self, tmp_path: Path) -> None:
+        """A history that cannot be written stops nothing."""
+        lab = Lab(tmp_path / "cache")
+        lab.run(graph_of("graphface: 1\nnodes: {n: {use: toy.number}}\n"), ["n"])
+        for file in (tmp_path / "cache" / "history").iterdir():
+            file.unlink()
+        (tmp_path / "cache" / "history").rmdir()
+        (tmp_path / "cache" / "history").write_text("a file where the folder should be")
+        assert lab.run(graph_of(), x=1.0)["join"].fate == "ran"
+
+
+PLUGIN = """\
+from graphface import node
+
+@node("mine.add")
+def add(a: float, b: float = 0.0, *, plus: float = 0.0) -> float:
+    return a + b + plus
+
+@node("mine.fail")
+def fail(a: float) -> float:
+    raise ValueError("it [/] broke")
+"""
+
+MINE = """\
+graphface: 1
+name: mine
+inputs: {x: float}
+nodes:
+  left: {use: mine.add, in: {a: x}}
+  join: {use: mine.add, in: {a: left}}
+  bad: {use: mine.fail, in: {a: left}}
+outputs: {join: join}
+"""
+
+
+class TestCommand:
+    @pytest.fixture
+    def call(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    ) -> Iterator[Any]:
+        """`graphface explain` on the graph MINE: exit code, standard output and error."""
+        (tmp_path / "mine.py").write_text(PLUGIN)
+        (tmp_path / "mine.yaml").write_text(MINE)
+        monkeypatch.chdir(tmp_path)
+
+        def explain(*flags: str) -> tuple[int, str, str]:
+            with pytest.raises(SystemExit) as left:
+                main(["explain", "mine.yaml", "--plugin", "mine.py", "-i", "x=1", "--cache", "cache", *flags])
+            said = capsys.readouterr()
+            return int(left.value.code or 0), said.out, said.err
+
+        return explain
+
+    def test_json(self, call: Any) -> None:
+        """--json prints one object a node, with name, operator, fate, reason, key, milliseconds, bytes, warnings."""
+        code, out, _ = call("--run", "--json")
+        assert code == 0
+        found = {entry["name"]: entry for entry in json.loads(out)}
+        assert list(found["join"]) == ["name", "operator", "fate", "reason", "key", "milliseconds", "bytes", "warnings"]
+        assert (found["join"]["fate"], found["join"]["reason"]) == ("ran", "first seen")
+        assert (found["bad"]["fate"], found["bad"]["reason"]) == ("skipped", "not needed for join")
+
+    def test_from_one_command_to_the_next(self, call: Any) -> None:
+        """The next command knows what the last one ran."""
+        call("--run")
+        _, out, _ = call("--json", "--set", "left.plus=3")
+        found = {entry["name"]: entry for entry in json.loads(out)}
+        assert found["left"]["reason"] == "parameter plus changed from 0.0 to 3.0"
+        assert found["join"]["reason"] == "left changed above it"
+
+    def test_without_run(self, call: Any) -> None:
+        """Without --run nothing is run, stored or remembered."""
+        assert call()[0] == 0
+        assert not Path("cache").exists()
+
+    def test_table(self, call: Any) -> None:
+        """The table has a line for each node."""
+        _, out, _ = call("--run")
+        assert [line.split()[0] for line in out.splitlines()] == ["node", "left", "join", "bad"]
+
+    def test_failure(self, call: Any) -> None:
+        """A failing node is in the table with its reason, brackets and all, and the exit code is 1."""
+        code, out, err = call("--run", "-o", "bad")
+        assert code == 1
+        assert "ValueError: it [/] broke" in out
+        assert err.startswith("error: ")

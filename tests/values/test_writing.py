@@ -1,0 +1,143 @@
+"""A result file appears whole or not at all."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from graphface.errors import RefusedOutput, UnwritableFile
+from graphface.values.port_types import ANY, ArrayType, PortType
+from graphface.values.writing import beside, check_folder, check_output, make_folder, write_output
+
+
+@dataclass(frozen=True)
+class Two:
+    left: np.ndarray
+    right: np.ndarray
+
+
+class Stubborn:
+    def to_file(self, path: Path) -> None:
+        raise PermissionError(13, "Permission denied")
+
+
+DRAWN = ArrayType("Drawn", "H W", to_file=lambda value, path: None, suffixes=(".png",))
+
+
+class TestWriting:
+    def test_npy(self, tmp_path: Path) -> None:
+        """.npy holds the array as it is."""
+        value = np.arange(6, dtype=np.int16).reshape(2, 3)
+        write_output(value, ANY, tmp_path / "a.npy")
+        np.testing.assert_array_equal(np.load(tmp_path / "a.npy", allow_pickle=False), value)
+
+    def test_npz(self, tmp_path: Path) -> None:
+        """.npz holds every array of a value by its path."""
+        write_output(Two(np.zeros(2), np.ones(3)), ANY, tmp_path / "a.npz")
+        with np.load(tmp_path / "a.npz") as stored:
+            assert {name: stored[name].shape for name in stored} == {"left": (2,), "right": (3,)}
+
+    def test_mode(self, tmp_path: Path) -> None:
+        """The file has the mode that the user's umask asks for, not that of a temporary file."""
+        (tmp_path / "plain").touch()
+        write_output(np.zeros(1), ANY, tmp_path / "a.npy")
+        assert (tmp_path / "a.npy").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+    @pytest.mark.parametrize(("value", "name"), [(3.0, "a.npz"), (3.0, "a.png"), (Stubborn(), "a.txt"), ("x", "a.npy")])
+    def test_unwritable(self, tmp_path: Path, value: object, name: str) -> None:
+        """A value that cannot be written as asked is an error that names the file."""
+        with pytest.raises(UnwritableFile) as caught:
+            write_output(value, PortType((type(value),)), tmp_path / name)
+        assert caught.value.path == tmp_path / name
+        assert list(tmp_path.iterdir()) == []
+
+    def test_missing_folder(self, tmp_path: Path) -> None:
+        """So is a folder that is not there."""
+        with pytest.raises(UnwritableFile):
+            write_output(np.zeros(1), ANY, tmp_path / "none" / "a.npy")
+
+
+class TestBeside:
+    def test_success(self, tmp_path: Path) -> None:
+        """What was written takes the place of the file."""
+        with beside(tmp_path / "a.txt") as path:
+            path.write_text("new")
+        assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+
+    @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
+    def test_failure(self, tmp_path: Path, error: type[BaseException]) -> None:
+        """Where writing fails or is interrupted, the old file stays and nothing else."""
+        (tmp_path / "a.txt").write_text("old")
+        with pytest.raises(error), beside(tmp_path / "a.txt") as path:  # noqa: PT012 - the block is what fails
+            path.write_text("half")
+            raise error
+        assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+        assert (tmp_path / "a.txt").read_text() == "old"
+
+
+class TestCheckFolder:
+    def test_fine(self, tmp_path: Path) -> None:
+        """Nothing is left behind."""
+        check_folder(tmp_path / "a.png")
+        assert list(tmp_path.iterdir()) == []
+
+    @pytest.mark.parametrize("name", ["", "none/a.png", "x" * 300 + ".png", "x" * 300 + "/a.png"])
+    def test_refused(self, tmp_path: Path, name: str) -> None:
+        """A folder, a missing folder and a name too long are told before anything runs."""
+        with pytest.raises(UnwritableFile):
+            check_folder(tmp_path / name)
+
+
+class TestCheckOutput:
+    @pytest.mark.parametrize(
+        ("declared", "name"),
+        [
+            (PortType((DRAWN,)), "a.PNG"),
+            (PortType((DRAWN,)), "a.npy"),
+            (PortType((Two,)), "a.npz"),
+            (PortType((np.ndarray,)), "a.npy"),
+            (PortType((Stubborn,)), "a.anything"),
+            (PortType((DRAWN, Stubborn)), "a.anything"),
+            (ANY, "a.anything"),
+        ],
+    )
+    def test_fine(self, tmp_path: Path, declared: PortType, name: str) -> None:
+        """A suffix that a writer knows, or may know."""
+        check_output(tmp_path / name, declared)
+
+    @pytest.mark.parametrize(
+        ("declared", "name"),
+        [
+            (PortType((DRAWN,)), "a.gif"),
+            (PortType((DRAWN,)), "a"),
+            (PortType((Two,)), "a.png"),
+            (PortType((Two,)), "a.npy"),
+            (PortType((float,), optional=True), "a.txt"),
+        ],
+    )
+    def test_refused(self, tmp_path: Path, declared: PortType, name: str) -> None:
+        """A suffix that none knows is refused, and those known are named."""
+        with pytest.raises(RefusedOutput, match=r"\.npz$"):
+            check_output(tmp_path / name, declared)
+
+    def test_suffixes_of_pictures(self) -> None:
+        """The suffixes that picture types promise are those that pictures are written as."""
+        from graphface.nodes.image_write import SUFFIXES
+        from graphface.nodes.types import PICTURES, Image
+
+        assert set(SUFFIXES) == set(PICTURES) == set(Image.suffixes)
+
+
+class TestMakeFolder:
+    def test_made(self, tmp_path: Path) -> None:
+        """With those above it; one that is there is left."""
+        for _ in range(2):
+            make_folder(tmp_path / "a" / "b")
+        assert (tmp_path / "a" / "b").is_dir()
+
+    def test_a_file_has_its_name(self, tmp_path: Path) -> None:
+        """It is said that this is a file."""
+        (tmp_path / "a").touch()
+        with pytest.raises(RefusedOutput, match="is a file"):
+            make_folder(tmp_path / "a")
