@@ -6,41 +6,34 @@ the answer. A model made from the data that the heads were made from is flattere
 
 from __future__ import annotations
 
-import json
-import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.bench.heads import LIGHTS, heads_of
-from graphface.nodes.image import read_image
-from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
+from graphface import Graph
+from graphface.nodes.bench.geometry_graphs import geometry_graph, model_graph
+from graphface.nodes.bench.heads import LIGHTS, Head, heads_of
+from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
 from graphface.nodes.metrics import mean_angle
-from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
-from graphface.nodes.morphable.morphable import average, morphable
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.types import Landmarks, Mesh
+from graphface.nodes.types import Mesh
 
 _FAR = 1e3
 """Depths beyond this, in centimetres, are background."""
 
-_TIMED = 3
-"""Runs of which the fastest counts: other work on the machine is not the method's."""
-
 
 @dataclass(frozen=True)
 class Geometry:
-    """A way to a mesh, and the mesh's vertices at the 68 points (-1: it has none)."""
+    """A representation with this geometry, its further `inputs`, and the vertices at the 68 points (-1: none)."""
 
     name: str
-    build: Callable[[Landmarks], Mesh]
+    graph: Graph
+    inputs: Mapping[str, Any]
     points68: NDArray[np.integer[Any]]
 
 
@@ -48,15 +41,15 @@ class Geometry:
 class Accuracy:
     """One geometry on one head under one light.
 
-    `landmarks` mean distance from the true 68 points in per cent of the distance between the outer eye corners;
-    `normals` mean angle in degrees over the face label; `depth` correlation with the true depth; `milliseconds` of
-    building the mesh from landmarks.
+    `landmarks` mean distance from the true 68 points in per cent of the distance between the outer eye corners, None
+    where the head has no such points; `normals` mean angle in degrees over the face label; `depth` correlation with the
+    true depth; `milliseconds` of CPU for the mesh once the landmarks are there.
     """
 
     geometry: str
     head: str
     light: str
-    landmarks: float
+    landmarks: float | None
     normals: float
     depth: float
     milliseconds: float
@@ -64,11 +57,11 @@ class Accuracy:
 
 def geometries(models: Mapping[str, MorphableModel]) -> list[Geometry]:
     """FaceMesh itself; then, for each model, the fit and the average face."""
-    found = [Geometry("facemesh", facemesh, IBUG68_IN_FACEMESH468)]
+    found = [Geometry("facemesh", geometry_graph("geometry.facemesh"), {}, IBUG68_IN_FACEMESH468)]
     for name, model in models.items():
-        points = model.landmarks["ibug68"]
-        found.append(Geometry(f"morphable, {name}", partial(morphable, model=model), points))
-        found.append(Geometry(f"average, {name}", partial(average, model=model), points))
+        for method in ("morphable", "average"):
+            graph = model_graph(f"geometry.{method}")
+            found.append(Geometry(f"{method}, {name}", graph, {"model": model}, model.landmarks["ibug68"]))
     return found
 
 
@@ -83,30 +76,28 @@ def geometry_truth(data: Path, models: Mapping[str, MorphableModel]) -> Iterator
         UnreadableFile: there are no heads at `data`.
     """
     heads = heads_of(data)
+    compared = geometries(models)
     for head in heads:
-        yield from _head(head, geometries(models))
+        yield from _head(head, compared)
 
 
-def _head(head: Path, ways: list[Geometry]) -> Iterator[Accuracy]:
-    points = np.asarray(json.loads((head / "meta.json").read_text(encoding="utf-8"))["landmarks68"], np.float64)
-    label = (read_image(head / "labels.png").pixels[..., 1] > 0.5).astype(np.float32)
-    with np.load(head / "aov.npz") as maps:
-        normals, depth = maps["normal"].astype(np.float32), maps["depth"].astype(np.float32)
+def _head(head: Head, compared: Sequence[Geometry]) -> Iterator[Accuracy]:
+    evaluator = MeteredEvaluator()
     for light in LIGHTS:
-        photo = read_image(head / f"{light}.png")
-        landmarks = find_landmarks(photo)
-        for way in ways:
-            mesh, took = _timed(way.build, landmarks)
-            surface = rasterize(mesh, photo)
-            both = (surface.coverage > 0) & (label > 0) & (depth > 0) & (depth < _FAR)
+        for geometry in compared:
+            graph, asked = geometry.graph, ("landmarks", "mesh", "surface")
+            found = graph.run(asked, evaluator=evaluator, photo=head.path(light), **geometry.inputs)
+            surface = found["surface"]
+            both = (surface.coverage > 0) & (head.face > 0) & (head.depth > 0) & (head.depth < _FAR)
+            points = head.points68
             yield Accuracy(
-                geometry=way.name,
+                geometry=geometry.name,
                 head=head.name,
                 light=light,
-                landmarks=landmark_error(mesh, way.points68, points),
-                normals=mean_angle(surface.normals, normals, label),
-                depth=correlation(surface.depth[both], -depth[both]),
-                milliseconds=took,
+                landmarks=None if points is None else landmark_error(found["mesh"], geometry.points68, points),
+                normals=mean_angle(surface.normals, head.normals, head.face),
+                depth=correlation(surface.depth[both], -head.depth[both]),
+                milliseconds=evaluator.cpu_ms(evaluator.key(graph, "mesh"), [evaluator.key(graph, "landmarks")]),
             )
 
 
@@ -132,12 +123,3 @@ def correlation(a: NDArray[np.floating[Any]], b: NDArray[np.floating[Any]]) -> f
         return 0.0
     a, b = a.astype(np.float64) - a.mean(dtype=np.float64), b.astype(np.float64) - b.mean(dtype=np.float64)
     return float(a @ b / max(float(np.sqrt((a @ a) * (b @ b))), 1e-12))
-
-
-def _timed(build: Callable[[Landmarks], Mesh], landmarks: Landmarks) -> tuple[Mesh, float]:
-    took = []
-    for _ in range(_TIMED):
-        start = time.perf_counter()
-        mesh = build(landmarks)
-        took.append(time.perf_counter() - start)
-    return mesh, 1e3 * min(took)

@@ -1,4 +1,4 @@
-"""Intrinsic methods and light fits on path-traced heads, whose albedo, normals and lights are known.
+"""Intrinsic methods on path-traced heads, whose albedo and lights are known.
 
 Methods work on sRGB-encoded pictures, as in the shipped graphs; their maps are decoded before they are compared, since
 for a power law the encoded albedo is the encoding of the albedo.
@@ -6,29 +6,30 @@ for a power law the encoded albedo is the encoding of the albedo.
 
 from __future__ import annotations
 
-import json
-import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from graphface.nodes.bench.heads import heads_of
+from graphface import Graph, load
+from graphface.nodes.bench.heads import LIGHTS, Head, heads_of
+from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.colour import decode_srgb
-from graphface.nodes.image import read_image
-from graphface.nodes.metrics import direction_angle, lmse, si_mse
-from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask, Normals
+from graphface.nodes.metrics import lmse, si_mse
 
-LIGHTS = ("frontal", "left45", "right45", "top", "left80_hard", "ambient")
-DIRECTED = ("left45", "right45", "top", "left80_hard")
+WHITE_LIGHTS = tuple(light for light in LIGHTS if light != "red_blue")
+"""Under colored light the shading is not one number a pixel."""
+
 _LEAST = 1e-3
+"""Albedo below which a pixel says nothing of the shading."""
+
+_NODE = "intrinsic"
 
 
 @dataclass(frozen=True)
 class IntrinsicFigure:
-    """Errors over the face label (see `graphface.nodes.metrics`), and the method's time on a 512 x 512 photo."""
+    """Errors over the face label (see `graphface.nodes.metrics`), and the method's CPU time on a 512 x 512 photo."""
 
     method: str
     head: str
@@ -40,123 +41,36 @@ class IntrinsicFigure:
     milliseconds: float
 
 
-@dataclass(frozen=True)
-class LightFigure:
-    """Degrees between the direction of the light found and the true one, by the mesh's and by the true normals."""
-
-    order: int
-    robust: str
-    head: str
-    light: str
-    mesh_degrees: float
-    true_degrees: float
-    milliseconds: float
-
-
-@dataclass(frozen=True)
-class Head:
-    folder: Path
-    label: Mask
-    albedo: FloatArray
-    normals: Normals
-    lights: dict[str, Any]
-
-    def photo(self, light: str) -> Image:
-        return read_image(self.folder / f"{light}.png")
-
-
 def intrinsic_truth(
-    data: Path, methods: dict[str, Callable[[Image], Intrinsic]], lights: Sequence[str] = LIGHTS
+    data: Path, methods: Sequence[str], lights: Sequence[str] = WHITE_LIGHTS
 ) -> Iterator[IntrinsicFigure]:
-    """Every method on every head and light.
+    """represent.yaml with every method ("intrinsic.retinex") on every head and light.
 
     Raises:
         UnreadableFile: there are no heads at `data`/truth.
     """
-    for head in heads(data):
+    heads = heads_of(data)
+    graphs = {method: load("represent", replace={_NODE: method}) for method in methods}
+    for head in heads:
         for light in lights:
-            photo = head.photo(light)
-            linear = decode_srgb(photo.pixels)
-            shading = linear.mean(axis=2) / np.maximum(head.albedo.mean(axis=2), _LEAST)
-            mask = head.label * (head.albedo.mean(axis=2) > _LEAST)
-            for name, method in methods.items():
-                start = time.perf_counter()
-                parts = method(photo)
-                seconds = time.perf_counter() - start
-                albedo, found = decode_srgb(parts.albedo), decode_srgb(parts.shading)
-                yield IntrinsicFigure(
-                    method=name,
-                    head=head.folder.name,
-                    light=light,
-                    albedo_si_mse=si_mse(albedo, head.albedo, mask),
-                    albedo_lmse=lmse(albedo, head.albedo, mask),
-                    shading_si_mse=si_mse(found, shading, mask),
-                    shading_lmse=lmse(found, shading, mask),
-                    milliseconds=seconds * 1e3,
-                )
+            yield from _compared(head, light, graphs)
 
 
-def light_truth(
-    data: Path, orders: Sequence[int] = (1, 2, 3), robust: Sequence[str] = ("none", "huber", "trimmed")
-) -> Iterator[LightFigure]:
-    """`sh.fit` of every order and robustness on every head under lights that come from somewhere.
-
-    The true direction is that of the summed irradiance vectors of the area lights.
-
-    Raises:
-        UnreadableFile: there are no heads at `data`/truth.
-    """
-    from graphface.nodes.intrinsic.intensity import intensity
-    from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
-    from graphface.nodes.masks.face import face as face_mask
-    from graphface.nodes.morphable.facemesh import facemesh as build_mesh
-    from graphface.nodes.render.surface import rasterize
-    from graphface.nodes.sh import fit
-
-    for head in heads(data):
-        frontal = head.photo("frontal")
-        landmarks = find_landmarks(frontal)
-        surface = rasterize(build_mesh(landmarks), frontal)
-        mask = face_mask(surface, landmarks)
-        for light in DIRECTED:
-            shading = decode_srgb(intensity(head.photo(light)).shading)
-            towards = true_direction(head.lights[light])
-            for order in orders:
-                for how in robust:
-                    start = time.perf_counter()
-                    found = fit(shading, surface.normals, mask, order=order, robust=how)  # type: ignore[arg-type]
-                    seconds = time.perf_counter() - start
-                    exact = fit(shading, head.normals, mask, order=order, robust=how)  # type: ignore[arg-type]
-                    yield LightFigure(
-                        order=order,
-                        robust=how,
-                        head=head.folder.name,
-                        light=light,
-                        mesh_degrees=direction_angle(found.direction, towards),
-                        true_degrees=direction_angle(exact.direction, towards),
-                        milliseconds=seconds * 1e3,
-                    )
-
-
-def heads(data: Path) -> Iterator[Head]:
-    """The heads at `data`/truth.
-
-    Raises:
-        UnreadableFile: there are none.
-    """
-    found = heads_of(data)
-    for folder in found:
-        with np.load(folder / "aov.npz") as maps:
-            normals, albedo = (maps[name].astype(np.float32) for name in ("normal", "albedo"))
-        label = (read_image(folder / "labels.png").pixels[..., 1] > 0.5).astype(np.float32)
-        lights = json.loads((folder / "meta.json").read_text(encoding="utf-8"))["lights"]
-        yield Head(folder, label, albedo, normals, lights)
-
-
-def true_direction(light: dict[str, Any]) -> FloatArray:
-    """Sum over area lights of solid angle times radiance times direction; float32 (3,), not normalized."""
-    total = np.zeros(3)
-    for area in light["area"]:
-        solid_angle = (2 * area["half_size"] / area["distance"]) ** 2
-        total += solid_angle * float(np.mean(area["radiance"])) * np.asarray(area["direction"], np.float64)
-    return total.astype(np.float32)
+def _compared(head: Head, light: str, graphs: Mapping[str, Graph]) -> Iterator[IntrinsicFigure]:
+    evaluator = MeteredEvaluator()
+    reflected = head.albedo.mean(axis=2)
+    shading = decode_srgb(head.photo(light).pixels).mean(axis=2) / np.maximum(reflected, _LEAST)
+    mask = head.face * (reflected > _LEAST)
+    for method, graph in graphs.items():
+        parts = graph.run(["unclipped", _NODE], evaluator=evaluator, photo=head.path(light))[_NODE]
+        albedo, found = decode_srgb(parts.albedo), decode_srgb(parts.shading)
+        yield IntrinsicFigure(
+            method=method,
+            head=head.name,
+            light=light,
+            albedo_si_mse=si_mse(albedo, head.albedo, mask),
+            albedo_lmse=lmse(albedo, head.albedo, mask),
+            shading_si_mse=si_mse(found, shading, mask),
+            shading_lmse=lmse(found, shading, mask),
+            milliseconds=evaluator.cpu_ms(evaluator.key(graph, _NODE), [evaluator.key(graph, "unclipped")]),
+        )

@@ -1,43 +1,33 @@
-"""Relight pictures by lights that are known, with the shipped graph and with parts of it changed.
+"""Relight pictures by lights that are known: the shipped graph, and the same with one thing changed.
 
-Two sets of ground truth: path-traced heads (`truth/`) and photographs under one light at a time (`yaleb/`, Georghiades
-et al. 2001; Lee et al. 2005). Results are written as `score.py` reads them; the figures here are the same ones.
+Results are written as `score.py` reads them; the figures here are the same ones.
 """
 
 from __future__ import annotations
 
-import json
-import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from graphface import UnreadableFile
-from graphface.nodes.bench.heads import heads_of
-from graphface.nodes.bench.truth import LIGHTS, known_scene
+from graphface import load
+from graphface.evaluate.session import Session
+from graphface.nodes.bench.known_light_cases import Case
+from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.colour import decode_srgb
-from graphface.nodes.image import read_image, write_image
-from graphface.nodes.render.irradiance import irradiance
-from graphface.nodes.render.scene import DirectionalLight, Scene
+from graphface.nodes.image import write_image
+from graphface.nodes.render.scene import Scene
 from graphface.nodes.types import FloatArray, Image
 from graphface.values.writing import make_folder
 
-if TYPE_CHECKING:
-    from graphface import Evaluator, Graph
+UNCHANGED = "unchanged photo"
 
-YALE_LIGHTS = (
-    *("A+025E+00", "A-025E+00", "A+050E+00", "A-050E+00"),
-    *("A+070E+00", "A-070E+00", "A+000E+45", "A+000E-20"),
-)
-_FRONTAL = "A+000E+00"
-_BORDER = 96
-"""Pixels put around the Yale crops, which are too tight for a face detector."""
-
-_ROOM = 0.03
-"""Ambient share of the Yale light stage, from the darkest shadows; its lamps are about 2 degrees to the edge."""
+_WINDOW = 7
+"""Pixels to a side of SSIM's windows."""
 
 
 @dataclass(frozen=True)
@@ -69,124 +59,49 @@ VARIANTS = (
     Variant("detail.multiplicative", replace={"face/detail": "detail.multiplicative"}),
     Variant("detail.none", replace={"face/detail": "detail.none"}),
     Variant("geometry.average", replace={"face/mesh": "geometry.average"}),
-    Variant("geometry.morphable", replace={"face/mesh": "geometry.morphable"}),
+    Variant("geometry.facemesh", replace={"face/mesh": "geometry.facemesh"}),
+    Variant("linear values", set={"face/working.encoding": "linear"}),
 )
-
-
-@dataclass(frozen=True)
-class Case:
-    """One picture and what it should become: `compare` takes the relit pixels (linear for Yale) to figures."""
-
-    subject: str
-    light: str
-    photo: Image
-    scene: Callable[[FloatArray], Scene]
-    """From the face's normals (n, 3) to the scene in the photo's unit."""
-    truth: FloatArray
-    mask: FloatArray
-    crop: int = 0
 
 
 @dataclass(frozen=True)
 class Figure:
     """`psnr`, `si_psnr` in dB, `rmse`, `si_mse`, `ssim` over the compared pixels.
 
-    `unchanged` has the same five of the photo as it is; `milliseconds` are from the representation on.
+    `milliseconds` of CPU for a change of the light once the photo is represented; None for the unchanged photo.
     """
 
+    variant: str
     subject: str
     light: str
     measured: dict[str, float]
-    unchanged: dict[str, float]
-    milliseconds: float
+    milliseconds: float | None = None
 
 
-def relight_known(cases: Iterator[Case], out: Path | None, variant: Variant, *, linear: bool) -> Iterator[Figure]:
-    """Relight every case; write `out`/SUBJECT/LIGHT.png where `out` is given.
+def relight_known(cases: Iterable[Case], variants: Sequence[Variant], out: Path | None = None) -> Iterator[Figure]:
+    """Relight every case by every variant; the cases of a subject follow each other.
 
     Args:
-        linear: the photos' values are linear light, and so are the ones compared.
+        out: where pictures go: SUBJECT/LIGHT.png, in a folder named as the variant where there are several.
+
+    Yields:
+        For each subject the figures of the unchanged photo, then those of the variants, light by light.
     """
-    from graphface import Evaluator, MemoryTier, load
-
-    working = {"face/working.encoding": "linear"} if linear else {}
-    graph = load("relight", replace=variant.replace, set={**working, **variant.set})
-    subject, evaluator = None, Evaluator(memory=MemoryTier())
-    for case in cases:
-        if case.subject != subject:
-            subject, evaluator = case.subject, Evaluator(memory=MemoryTier())
-        image, milliseconds = _relit(graph, evaluator, case, variant)
-        inside = np.s_[case.crop : -case.crop or None, case.crop : -case.crop or None]
-        result = np.clip(image.pixels, 0, 1)[inside]
-        before = case.photo.pixels[inside]
-        if linear:
-            result = decode_srgb(result)
-        if out is not None:
-            make_folder(out / case.subject)
-            write_image(Image(np.asarray(result, np.float32)), out / case.subject / f"{case.light}.png")
-        yield Figure(
-            case.subject,
-            case.light,
-            compared(result, case.truth, case.mask),
-            compared(before, case.truth, case.mask),
-            milliseconds,
-        )
-
-
-def truth_cases(data: Path) -> Iterator[Case]:
-    """The path-traced heads of `data`/truth, from `frontal` to every other light, compared over the face label."""
-    heads = heads_of(data)
-    for head in heads:
-        lights = json.loads((head / "meta.json").read_text(encoding="utf-8"))["lights"]
-        photo = read_image(head / "frontal.png")
-        mask = (read_image(head / "labels.png").pixels[..., 1] > 0.5).astype(np.float32)
-        for light in LIGHTS:
-
-            def scene(normals: FloatArray, light: str = light, lights: Any = lights) -> Scene:
-                unit = float(irradiance(known_scene(lights["frontal"]), normals).mean())
-                return known_scene(lights[light], max(unit, 1e-6))
-
-            yield Case(head.name, light, photo, scene, read_image(head / f"{light}.png").pixels, mask)
-
-
-def yale_cases(data: Path, every: int = 1) -> Iterator[Case]:
-    """The people of `data`/yaleb (every n-th), from the frontal light to eight others, compared over the whole crop."""
-    import cv2
-
-    people = sorted(path for path in (data / "yaleb").glob("yaleB*") if path.is_dir())[::every]
-    if not people:
-        raise UnreadableFile(data / "yaleb", "holds no people (folders yaleB01 ...)")
-    for person in people:
-        pixels = read_image(person / f"{person.name}_P00{_FRONTAL}.png").pixels
-        sides = (_BORDER,) * 4
-        padded = np.asarray(cv2.copyMakeBorder(pixels, *sides, cv2.BORDER_REPLICATE), np.float32)
-        photo = Image(padded, encoding="linear")
-        for light in YALE_LIGHTS:
-            path = person / f"{person.name}_P00{light}.png"
-            if not path.exists():
-                continue
-
-            def scene(normals: FloatArray, light: str = light) -> Scene:
-                unit = float(irradiance(yale_scene(_FRONTAL), normals).mean())
-                return yale_scene(light, max(unit, 1e-6))
-
-            truth = read_image(path).pixels
-            yield Case(person.name, light, photo, scene, truth, np.ones(truth.shape[:2], np.float32), _BORDER)
-
-
-def yale_scene(name: str, unit: float = 1.0) -> Scene:
-    """A light of the Yale stage by its name, A azimuth E elevation; positive azimuths are to the picture's left."""
-    azimuth, elevation = float(name[1:5]), float(name[6:9])
-    lamp = DirectionalLight(azimuth=-azimuth, elevation=elevation, size=2, intensity=1 / unit)
-    return Scene(ambient=_ROOM / unit, lights=(lamp,), keep_mean=False, background=1)
+    for _, own in groupby(cases, lambda case: case.subject):
+        subject = list(own)
+        for case in subject:
+            before = case.photo.pixels[_inside(case)]
+            yield Figure(UNCHANGED, case.subject, case.light, compared(before, case.truth, case.mask))
+        yield from _relit_subject(subject, variants, out)
 
 
 def compared(result: FloatArray, truth: FloatArray, mask: FloatArray) -> dict[str, float]:
-    """The figures of `score.py`."""
+    """The figures of `score.py`; of the picture only what they depend on is looked at."""
     from skimage.metrics import structural_similarity
 
-    inside = mask > 0.5
-    a, b = result.astype(np.float64), truth.astype(np.float64)
+    part = _around(mask > 0.5)
+    inside = (mask > 0.5)[part]
+    a, b = result[part].astype(np.float64), truth[part].astype(np.float64)
     gain = float((a * b)[inside].sum()) / max(float((a * a)[inside].sum()), 1e-12)
     mse, si_mse = (float(np.square(g * a - b)[inside].mean()) for g in (1.0, gain))
     similarity = structural_similarity(a, b, data_range=1, channel_axis=2, full=True)[1]  # type: ignore[no-untyped-call]
@@ -199,11 +114,52 @@ def compared(result: FloatArray, truth: FloatArray, mask: FloatArray) -> dict[st
     }
 
 
-def _relit(graph: Graph, evaluator: Evaluator, case: Case, variant: Variant) -> tuple[Image, float]:
-    """The relit photo, and the milliseconds it took once the representation was there."""
-    known = graph.run(["face.mask", "face.normals", "face.detail"], evaluator=evaluator, photo=case.photo)
+def _relit_subject(cases: Sequence[Case], variants: Sequence[Variant], out: Path | None) -> Iterator[Figure]:
+    """One subject, light by light: variants find what they share in memory, and nothing else has to be kept."""
+    evaluator = MeteredEvaluator()
+    photo = cases[0].photo
+    sessions = []
+    for variant in variants:
+        graph = load("relight", replace=variant.replace, set={"face/working.encoding": photo.encoding, **variant.set})
+        sessions.append(Session(graph, {"photo": photo}, evaluator=evaluator, history=1))
+    made: list[list[tuple[dict[str, float], bytes]]] = [[] for _ in variants]
+    for case in cases:
+        for variant, session, own in zip(variants, sessions, made, strict=True):
+            pixels = _relit(session, case, variant)
+            own.append((compared(pixels, case.truth, case.mask), evaluator.key(session.graph, "image")))
+            if out is not None:
+                folder = (out if len(variants) == 1 else out / variant.name) / case.subject
+                make_folder(folder)
+                write_image(Image(pixels), folder / f"{case.light}.png")
+    for variant, own in zip(variants, made, strict=True):
+        keys = [key for _, key in own]
+        for place, (case, (measured, key)) in enumerate(zip(cases, own, strict=True)):
+            spent = evaluator.cpu_ms(key, given=keys[:place] + keys[place + 1 :])
+            yield Figure(variant.name, case.subject, case.light, measured, spent)
+
+
+def _relit(session: Session, case: Case, variant: Variant) -> FloatArray:
+    """The relit photo in the truth's encoding and frame, values in [0, 1]."""
+    known = session.render(["face.mask", "face.normals"])
     on_face = (known["face.mask"] > 0.5) & np.any(known["face.normals"] != 0, axis=2)
-    scene = variant.applied(case.scene(known["face.normals"][on_face]))
-    start = time.perf_counter()
-    image: Image = graph.run(["image"], evaluator=evaluator, photo=case.photo, scene=scene)["image"]
-    return image, 1e3 * (time.perf_counter() - start)
+    session.edit(scene=variant.applied(case.scene(known["face.normals"][on_face])))
+    image: Image = session.render(["image"])["image"]
+    shown = np.clip(image.pixels, 0, 1)[_inside(case)]
+    return np.asarray(decode_srgb(shown) if case.photo.encoding == "linear" else shown, np.float32)
+
+
+def _around(inside: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """The rows and columns that hold a mask, and the windows of SSIM about it."""
+    rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))
+    if rows.size == 0:
+        return slice(None), slice(None)
+    return (
+        slice(max(int(rows[0]) - _WINDOW, 0), int(rows[-1]) + 1 + _WINDOW),
+        slice(max(int(columns[0]) - _WINDOW, 0), int(columns[-1]) + 1 + _WINDOW),
+    )
+
+
+def _inside(case: Case) -> tuple[slice, slice]:
+    """The part of the photo that is compared."""
+    kept = slice(case.crop, -case.crop or None)
+    return kept, kept

@@ -9,30 +9,23 @@ busy loop, which would be counted against PyMatting.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.bench.segmentation_truth import segment_photo
-from graphface.nodes.image import read_image
-from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
+from graphface import Graph
+from graphface.nodes.bench.metered import MeteredEvaluator
+from graphface.nodes.bench.segmentation_graphs import MATTED, segmentation_graph, unmatted
 from graphface.nodes.matting.band import band_of, likeliest_alphas
-from graphface.nodes.matting.closed_form import closed_form
-from graphface.nodes.types import Image, Landmarks, Segmentation
-
-T = TypeVar("T")
+from graphface.nodes.types import Image, Segmentation
 
 HELD = 100.0
 """Weight of known pixels: `lambda_value` of PyMatting's make_linear_system."""
-
-WIDTH, STRANDS = 0.06, 0.15
-"""Of the band: the defaults of matting.closed_form."""
 
 
 @dataclass(frozen=True)
@@ -57,39 +50,41 @@ class Compared:
 
 
 def matting_speed(photos: Iterable[Path], *, trust: float, tolerance: float) -> Iterator[Compared]:
-    """Solve every photo both ways, at one setting of matting.closed_form."""
+    """Solve every photo both ways, at one setting of matting.closed_form.
+
+    Raises:
+        UnreadableFile, RunFailed: a photo cannot be read, or shows no face.
+    """
     from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
-    warm = False
+    graph = segmentation_graph(matting="closed_form", settings={"trust": trust, "tolerance": tolerance})
     for path in photos:
-        photo = read_image(path)
-        landmarks = find_landmarks(photo)
-        labels = segment_photo(photo, landmarks)
         with threadpool_limits(1):
-            if not warm:
-                closed_form(photo, labels, landmarks)  # compiled code is loaded once
-                warm = True
-            yield compared(path.stem, photo, labels, landmarks, trust, tolerance)
+            yield compared(path, graph)
 
 
-def compared(
-    name: str, photo: Image, labels: Segmentation, landmarks: Landmarks, trust: float, tolerance: float
-) -> Compared:
-    """One photo with its soft labels, both ways."""
-    band = band_of(labels, landmarks.interocular, width=WIDTH, strands=STRANDS)
+def compared(path: Path, graph: Graph) -> Compared:
+    """One photo, both ways; the graph mattes by matting.closed_form."""
+    evaluator, classes = MeteredEvaluator(), unmatted()
+    made = graph.run(["working", "landmarks", classes, MATTED], evaluator=evaluator, photo=path)
+    before, matted = evaluator.key(graph, classes), evaluator.key(graph, MATTED)
+    evaluator.forget(matted)  # run again: compiled code is loaded once
+    found = graph.run([MATTED], evaluator=evaluator, photo=path)[MATTED]
+    (settings,) = (step.parameters for step in graph.steps if step.name == MATTED)
+    photo, labels = made["working"], made[classes]
+    band = band_of(labels, made["landmarks"].interocular, width=settings["width"], strands=settings["strands"])
     unknown = np.zeros(labels.face.shape, bool)
     unknown[band.part] = band.unknown
-    whole, whole_seconds = _timed(lambda: whole_picture(photo, labels, unknown, trust))
-    found, band_seconds = _timed(
-        lambda: closed_form(photo, labels, landmarks, width=WIDTH, strands=STRANDS, trust=trust, tolerance=tolerance)
-    )
+    start = time.process_time()
+    whole = whole_picture(photo, labels, unknown, settings["trust"])
+    whole_seconds = time.process_time() - start
     apart = np.abs(np.stack([found.face, found.hair, found.background], axis=2) - whole)
     return Compared(
-        photo=name,
+        photo=path.stem,
         size=(photo.height, photo.width),
         share=float(unknown.mean()),
         whole_seconds=whole_seconds,
-        band_seconds=band_seconds,
+        band_seconds=evaluator.cpu_ms(matted, [before]) / 1e3,
         picture=float(apart.mean(axis=(0, 1)).max()),
         band=float(apart[unknown].mean(axis=0).max()) if unknown.any() else 0.0,
     )
@@ -112,10 +107,3 @@ def whole_picture(photo: Image, labels: Segmentation, unknown: NDArray[np.bool_]
     alphas = [np.clip(cg(system, weight * held[:, k], M=factors), 0, 1) for k in range(2)]
     alphas.append(np.clip(1 - alphas[0] - alphas[1], 0, 1))
     return np.stack(alphas, axis=1).reshape(*unknown.shape, 3)
-
-
-def _timed(work: Callable[[], T]) -> tuple[T, float]:
-    """The result, and the CPU seconds of all threads."""
-    start = time.process_time()
-    result = work()
-    return result, time.process_time() - start

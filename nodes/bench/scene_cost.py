@@ -13,7 +13,7 @@ import numpy as np
 
 from graphface import load
 from graphface.evaluate.session import Session
-from graphface.nodes.commands.gallery import shipped_scenes
+from graphface.nodes.bench.shipped import astronaut, shipped_scenes
 from graphface.nodes.image import image_from_array, read_image
 from graphface.nodes.render.scene import Scene
 from graphface.nodes.types import Image
@@ -36,33 +36,43 @@ PLAIN: dict[str, dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Cost:
-    """`milliseconds` from the edit to the picture, representation in memory; `copy` those of copying what it reads."""
+    """`milliseconds` from the edit to the picture, representation in memory, and `cpu_ms` of all threads meanwhile.
+
+    `copy`: milliseconds of copying the arrays that the edit reads or writes.
+    """
 
     scene: str
     nodes: int
     effects: str
     milliseconds: float
+    cpu_ms: float
     copy: float
 
 
 def scene_costs(photo: Path | None, megapixels: float, repeats: int) -> Iterator[Cost]:
-    """One row for each plain edit and each shipped scene."""
-    image = _scaled(_astronaut() if photo is None else read_image(photo), megapixels)
+    """One row for each plain edit and each shipped scene; times are medians of `repeats` edits."""
+    image = _scaled(image_from_array(astronaut()) if photo is None else read_image(photo), megapixels)
     session = Session(load("relight"), {"photo": image})
     session.render(["image", "face.labels"])
     named = {name: Scene.coerce(given) for name, given in PLAIN.items()}
     named |= {path.stem: Scene.from_file(path) for path in shipped_scenes()}
     for name, scene in named.items():
-        seconds, ran = [], set[str]()
-        for turn in range(_BEFORE + repeats):
-            # A hair's breadth of exposure makes each edit a new one.
-            session.edit(scene=scene.model_copy(update={"exposure": scene.exposure * (1 + 1e-5 * (turn + 1))}))
-            start = time.perf_counter()
-            result = session.render(["image"])
-            seconds.append(time.perf_counter() - start)
-            ran = {record.name for record in result.records if record.state == "ran"} - {"scene", "photo"}
-        effects = ", ".join(label for node, label in _EFFECTS.items() if node in ran and _used(node, scene))
-        yield Cost(name, len(ran), effects or "none", 1e3 * median(seconds[_BEFORE:]), _copy_time(image, repeats))
+        yield _cost(session, name, scene, repeats, _copy_time(image, repeats))
+
+
+def _cost(session: Session, name: str, scene: Scene, repeats: int, copy: float) -> Cost:
+    took, spent, ran = [], [], set[str]()
+    for turn in range(_BEFORE + repeats):
+        # A hair's breadth of exposure makes each edit a new one.
+        session.edit(scene=scene.model_copy(update={"exposure": scene.exposure * (1 + 1e-5 * (turn + 1))}))
+        start, cpu = time.perf_counter(), time.process_time()
+        result = session.render(["image"])
+        took.append(time.perf_counter() - start)
+        spent.append(time.process_time() - cpu)
+        ran = {record.name for record in result.records if record.state == "ran"} - {"scene", "photo"}
+    effects = ", ".join(label for node, label in _EFFECTS.items() if node in ran and _used(node, scene))
+    milliseconds, cpu_ms = (1e3 * median(seconds[_BEFORE:]) for seconds in (took, spent))
+    return Cost(name, len(ran), effects or "none", milliseconds, cpu_ms, copy)
 
 
 def _used(node: str, scene: Scene) -> bool:
@@ -88,9 +98,3 @@ def _scaled(image: Image, megapixels: float) -> Image:
     size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
     scaled = cv2.resize(image.pixels, size, interpolation=cv2.INTER_AREA if factor < 1 else cv2.INTER_CUBIC)
     return image_from_array(np.ascontiguousarray(np.clip(scaled, 0, 1), np.float32))
-
-
-def _astronaut() -> Image:
-    from graphface.nodes.commands.demo import astronaut
-
-    return image_from_array(astronaut())

@@ -5,39 +5,22 @@ The truth calls the painted inside of the ears hair; nothing in a photo says so,
 
 from __future__ import annotations
 
-import time
 import tracemalloc
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.bench.heads import heads_of
-from graphface.nodes.image import read_image
-from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
-from graphface.nodes.masks.classify import classify
-from graphface.nodes.masks.cue import cue, cued_hair
-from graphface.nodes.masks.features import pixel_features
-from graphface.nodes.masks.geometric import geometric
-from graphface.nodes.masks.hair import hair
+from graphface import Graph
+from graphface.nodes.bench.heads import LABELS, LIGHTS, Head, heads_of
+from graphface.nodes.bench.metered import MeteredEvaluator
+from graphface.nodes.bench.segmentation_graphs import MATTED, MATTINGS, segmentation_graph, unmatted
 from graphface.nodes.masks.label_weights import LabelWeights
-from graphface.nodes.masks.likeness import Model
-from graphface.nodes.masks.network import network
-from graphface.nodes.matting.closed_form import closed_form
-from graphface.nodes.matting.guided import guided
-from graphface.nodes.matting.knn import knn
-from graphface.nodes.matting.none import none
-from graphface.nodes.morphable.facemesh import facemesh as build_mesh
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
-
-Labeller = Callable[[Image, Landmarks], Segmentation]
-Matting = Callable[[Image, Segmentation, Landmarks], Segmentation]
-
-MATTINGS: dict[str, Matting] = {"none": none, "guided": guided, "closed_form": closed_form, "knn": knn}
-LABELS = ("face", "hair", "background")
+from graphface.nodes.metrics import iou
+from graphface.nodes.types import Segmentation
 
 
 @dataclass(frozen=True)
@@ -45,119 +28,75 @@ class Segmented:
     """One head with one choice of matting; figures are by label, in the order of `LABELS`.
 
     `iou`: intersection over union of the likeliest labels. `boundary`: mean distance between found and true outline,
-    both ways, in pixels. `softness`: mean absolute difference of the soft masks. `labels_ms`: the stage up to the
-    classifiers; `matting_ms`: from there on; `peak_mb`: most memory that arrays took during matting.
+    both ways, in pixels. CPU milliseconds: `labels_ms` from the mesh to the labels before matting, `matting_ms` from
+    there on. `peak_mb`: most memory that arrays took during matting.
     """
 
     head: str
     matting: str
     iou: tuple[float, ...]
     boundary: tuple[float, ...]
-    softness: tuple[float, ...]
     labels_ms: float
     matting_ms: float
     peak_mb: float
 
 
 def segment_truth(
-    data: Path, mattings: dict[str, Matting] | None = None, label: Labeller | None = None
+    data: Path,
+    mattings: Sequence[str] = MATTINGS,
+    *,
+    labels: str = "classify",
+    light: str = LIGHTS[0],
+    weights: LabelWeights | None = None,
 ) -> Iterator[Segmented]:
-    """Segment every head of `data`/truth under frontal light with every choice of matting.
+    """Segment every head of `data`/truth with every choice of matting.
 
     Args:
-        label: what finds the labels, before matting; the classifiers by default.
+        mattings: of `MATTINGS`. labels: one of `LABELLINGS`. light: of the photo.
+        weights: of the cue's network, the shipped ones by default.
 
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
-    label = label or segment_photo
-    heads = heads_of(data, "labels.png")
+    heads = heads_of(data)
+    graphs = {matting: segmentation_graph(labels, matting) for matting in mattings}
     for head in heads:
-        photo = read_image(head / "frontal.png")
-        truth = true_labels(head / "labels.png")
-        landmarks = find_landmarks(photo)
-        label(photo, landmarks)  # once for nothing: imports and caches are not what is measured
-        labels, labels_ms, _ = _measured(lambda p=photo, at=landmarks: label(p, at))  # type: ignore[misc]
-        for name, matting in (mattings or MATTINGS).items():
-            yield compared(head.name, name, matting, photo, landmarks, labels, truth, labels_ms)
+        yield from _segmented(head, graphs, unmatted(labels), light, weights)
 
 
-def segment_photo(photo: Image, landmarks: Landmarks, weights: LabelWeights | None = None) -> Segmentation:
-    """The stage up to the classifiers, as in graphs/segment.yaml; `weights` of the cue, the shipped ones by default."""
-    masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
-    known = cue(photo, landmarks, weights)
-    return classify(pixel_features(photo, landmarks), masks, cued_hair(known, masks), landmarks, photo, known)
+def _segmented(
+    head: Head, graphs: Mapping[str, Graph], labels: str, light: str, weights: LabelWeights | None
+) -> Iterator[Segmented]:
+    evaluator = MeteredEvaluator()
+    inputs: dict[str, Any] = {"photo": head.path(light), "segment/label_weights": weights}
+    truth = head.labels.argmax(axis=2)
+    for matting, graph in graphs.items():
+        graph.run(["surface", labels, "labels"], evaluator=evaluator, **inputs)
+        surface, before, matted = (evaluator.key(graph, node) for node in ("surface", labels, MATTED))
+        for key in (before, matted):
+            evaluator.forget(key)  # run again: what a method imports is not what is measured
+        found = likeliest(graph.run([labels, MATTED], evaluator=evaluator, **inputs)[MATTED])
+        labels_ms, matting_ms = evaluator.cpu_ms(before, [surface]), evaluator.cpu_ms(matted, [before])
+        evaluator.forget(matted)
+        yield Segmented(
+            head=head.name,
+            matting=matting,
+            iou=overlaps(found, truth),
+            boundary=tuple(boundary_error(found == k, truth == k) for k in range(len(LABELS))),
+            labels_ms=labels_ms,
+            matting_ms=matting_ms,
+            peak_mb=_peak(graph, evaluator, inputs),
+        )
 
 
-def segment_by_cue(photo: Image, landmarks: Landmarks) -> Segmentation:
-    """What the classifiers start from."""
-    return cue(photo, landmarks)
+def likeliest(labels: Segmentation) -> NDArray[np.intp]:
+    """The label of every pixel, H x W: 0 face, 1 hair, 2 background."""
+    return np.asarray(np.stack([labels.face, labels.hair, labels.background]).argmax(axis=0))
 
 
-def segment_by_detector(photo: Image, landmarks: Landmarks, model: Model = "parzen") -> Segmentation:
-    """Labels before matting, as in the variant `detector` of graphs/segment.yaml."""
-    masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
-    features = pixel_features(photo, landmarks)
-    return classify(features, masks, hair(features, masks, landmarks, model=model), landmarks, photo, model=model)
-
-
-def segment_by_mixtures(photo: Image, landmarks: Landmarks) -> Segmentation:
-    """Labels before matting, as in the variant `mixtures` of graphs/segment.yaml."""
-    return segment_by_detector(photo, landmarks, "mixture")
-
-
-def segment_by_network(photo: Image, landmarks: Landmarks) -> Segmentation:
-    """Labels before matting, as in the variant `network` of graphs/segment.yaml."""
-    return network(photo, landmarks, geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo)))
-
-
-LABELLERS: dict[str, Labeller] = {
-    "classify": segment_photo,
-    "cue": segment_by_cue,
-    "detector": segment_by_detector,
-    "mixtures": segment_by_mixtures,
-    "network": segment_by_network,
-}
-
-
-def true_labels(path: Path) -> FloatArray:
-    """labels.png as H x W x 3 in the order of `LABELS`: green is face, red is hair."""
-    pixels = read_image(path).pixels
-    face, locks = pixels[..., 1], pixels[..., 0]
-    return np.stack([face, locks, np.maximum(1 - face - locks, 0)], axis=2)
-
-
-def compared(
-    head: str,
-    name: str,
-    matting: Matting,
-    photo: Image,
-    landmarks: Landmarks,
-    labels: Segmentation,
-    truth: FloatArray,
-    labels_ms: float,
-) -> Segmented:
-    matting(photo, labels, landmarks)
-    result, elapsed, peak = _measured(lambda: matting(photo, labels, landmarks))
-    found = np.stack([result.face, result.hair, result.background], axis=2)
-    shown, right = found.argmax(axis=2), truth.argmax(axis=2)
-    pairs = [(shown == k, right == k) for k in range(3)]
-    return Segmented(
-        head=head,
-        matting=name,
-        iou=tuple(iou(a, b) for a, b in pairs),
-        boundary=tuple(boundary_error(a, b) for a, b in pairs),
-        softness=tuple(float(v) for v in np.abs(found - truth).mean(axis=(0, 1))),
-        labels_ms=labels_ms,
-        matting_ms=elapsed,
-        peak_mb=peak,
-    )
-
-
-def iou(found: NDArray[np.bool_], truth: NDArray[np.bool_]) -> float:
-    """Intersection over union; 1 where both are empty."""
-    union = int((found | truth).sum())
-    return int((found & truth).sum()) / union if union else 1.0
+def overlaps(found: NDArray[np.intp], truth: NDArray[np.intp]) -> tuple[float, ...]:
+    """Intersection over union of each label of two maps as `likeliest` gives them; 1 where neither has a label."""
+    return tuple(iou((found == k).astype(np.float32), (truth == k).astype(np.float32)) for k in range(len(LABELS)))
 
 
 def boundary_error(found: NDArray[np.bool_], truth: NDArray[np.bool_]) -> float:
@@ -181,13 +120,10 @@ def _outline(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return np.asarray(mask & (shrunk == 0))
 
 
-def _measured(work: Callable[[], Segmentation]) -> tuple[Segmentation, float, float]:
-    """The result, milliseconds of one run, and peak megabytes of another, since tracing memory takes time."""
-    start = time.perf_counter()
-    result = work()
-    elapsed = (time.perf_counter() - start) * 1000
+def _peak(graph: Graph, evaluator: MeteredEvaluator, inputs: Mapping[str, Any]) -> float:
+    """Peak megabytes of the matting alone, which runs once more: tracing memory takes time."""
     tracemalloc.start()
-    work()
+    graph.run([MATTED], evaluator=evaluator, **inputs)
     peak = tracemalloc.get_traced_memory()[1] / 2**20
     tracemalloc.stop()
-    return result, elapsed, peak
+    return peak

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from graphface import Evaluator, GraphfaceError, MemoryTier, load
+from graphface import Evaluator, GraphfaceError, load
+from graphface.nodes.bench.metered import MeteredEvaluator
+from graphface.nodes.bench.pair_cost import transfer_ms
 from graphface.nodes.bench.transfer_truth import reinhard
 from graphface.nodes.colour import channel_mean
 from graphface.nodes.makeup.features import EYES, LIPS, MOUTH, NOSE, Features
@@ -33,10 +35,11 @@ class Criteria:
     """One pair.
 
     `shift`: mean movement of the landmarks of eyes, nose and mouth, found again on the result, in inter-ocular
-    distances; `floor`: that of the input in the reference's colour statistics, where nothing has moved, so that it is
+    distances; `floor`: that of the input in the reference's color statistics, where nothing has moved, so that it is
     the detector's own. `similarity`: SSIM of locally equalized intensity around them, result against input.
     `seam`: mean gradient along the edge of the painted face over the input's own there; 1 is no seam.
     `albedo_before`, `albedo_after`: mean distance of the regions' median albedo to the reference's.
+    `milliseconds` of CPU for the transfer, both photos represented.
     """
 
     photo: str
@@ -47,51 +50,62 @@ class Criteria:
     seam: float
     albedo_before: float
     albedo_after: float
+    milliseconds: float
 
 
-def criteria(photos: Sequence[Path], references: Sequence[Path]) -> Iterator[Criteria | tuple[str, str, str]]:
-    """Every photo under every reference; (photo, reference, reason) where a pair cannot be made."""
-    evaluator, graph = Evaluator(memory=MemoryTier()), load("makeup")
+@dataclass(frozen=True)
+class Refused:
+    """A pair that cannot be made, and why."""
+
+    photo: str
+    reference: str
+    reason: str
+
+
+def criteria(photos: Sequence[Path], references: Sequence[Path]) -> Iterator[Criteria | Refused]:
+    """Every photo under every reference by makeup.yaml."""
+    evaluator, graph = MeteredEvaluator(), load("makeup")
     for photo in photos:
         for reference in references:
             try:
                 made = graph.run(list(_ASKED), evaluator=evaluator, photo=photo, reference=reference)
-                yield measured(photo.name, reference.name, made)
+                yield measured(photo.name, reference.name, made, transfer_ms(evaluator, graph))
             except GraphfaceError as error:
-                yield photo.name, reference.name, str(error).partition("\n")[0]
+                yield Refused(photo.name, reference.name, str(error).partition("\n")[0])
 
 
-def measured(photo: str, reference: str, made: Any) -> Criteria:
+def measured(photo: str, reference: str, made: Mapping[str, Any], milliseconds: float) -> Criteria:
     """The criteria of one run of makeup.yaml that has the outputs above."""
     before, after, features = made["pair.working"], made["image"], made["pair.features"]
     albedo, landmarks = made["pair.reference_albedo"], made["pair.landmarks"]
-    recoloured = reinhard(before, made["pair.reference_working"])
+    recolored = reinhard(before, made["pair.reference_working"])
     return Criteria(
         photo=photo,
         reference=reference,
-        shift=landmark_shift(before, after, landmarks),
-        floor=landmark_shift(before, recoloured, landmarks),
+        shift=landmark_shift(landmarks, found_again(after)),
+        floor=landmark_shift(landmarks, found_again(recolored)),
         similarity=feature_similarity(before.pixels, after.pixels, features, landmarks),
         seam=seam(before.pixels, after.pixels, made["core"]),
         albedo_before=albedo_distance(made["pair.albedo"], albedo, features, made["core"]),
         albedo_after=albedo_distance(_chromaticity(after.pixels), albedo, features, made["core"]),
+        milliseconds=milliseconds,
     )
 
 
-def landmark_shift(before: Image, after: Image, landmarks: Landmarks) -> float:
-    """Mean distance between the landmarks of both pictures at eyes, nose and mouth, in inter-ocular distances.
+def found_again(picture: Image) -> Landmarks:
+    """The landmarks of a result, found as those of the photo were."""
+    found: Landmarks = load("represent").run(["landmarks"], evaluator=Evaluator(), photo=picture)["landmarks"]
+    return found
 
-    Both are found by the same detector in the same way; `landmarks` gives the unit.
-    """
-    from graphface.nodes.landmarks.facemesh import facemesh
 
-    points = [facemesh(picture).points[_FEATURE_POINTS, :2] for picture in (before, after)]
-    apart = np.linalg.norm(points[1] - points[0], axis=1)
-    return float(apart.mean() / max(landmarks.interocular, 1e-3))
+def landmark_shift(before: Landmarks, after: Landmarks) -> float:
+    """Mean distance between the landmarks at eyes, nose and mouth, in inter-ocular distances of `before`."""
+    apart = np.linalg.norm(after.points[_FEATURE_POINTS, :2] - before.points[_FEATURE_POINTS, :2], axis=1)
+    return float(apart.mean() / max(before.interocular, 1e-3))
 
 
 def feature_similarity(before: FloatArray, after: FloatArray, features: Features, landmarks: Landmarks) -> float:
-    """SSIM around eyes, nose and mouth of intensity without local mean and contrast: shape, not colour."""
+    """SSIM around eyes, nose and mouth of intensity without local mean and contrast: shape, not color."""
     import cv2
     from skimage.metrics import structural_similarity
 
@@ -121,7 +135,7 @@ def seam(before: FloatArray, after: FloatArray, core: Mask) -> float:
 
 
 def albedo_distance(albedo: FloatArray, reference: FloatArray, features: Features, core: Mask) -> float:
-    """Mean distance between the regions' median colours: lips, lids, cheeks and the skin as a whole."""
+    """Mean distance between the regions' median colors: lips, lids, cheeks and the skin as a whole."""
     distances = []
     for region in (features.lips, features.lids, features.cheeks, np.ones_like(core)):
         where = (region > 0.5) & (core > 0.5)
@@ -132,5 +146,5 @@ def albedo_distance(albedo: FloatArray, reference: FloatArray, features: Feature
 
 
 def _chromaticity(pixels: FloatArray) -> FloatArray:
-    """Colour over its intensity: the paper's albedo."""
+    """Color over its intensity: the paper's albedo."""
     return np.asarray(pixels / np.maximum(channel_mean(pixels)[..., None], 0.15), np.float32)

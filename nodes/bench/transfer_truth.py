@@ -1,26 +1,26 @@
 """Makeup transfer between path-traced heads whose true answer is known, beside simple methods and swapped stages.
 
-`truth/makeup/A_from_B.png` is head A with the whole albedo of head B. What is compared is the face label: with ears and
-neck, without hair.
+Two truths: "full" is the head with the whole albedo of the reference, skin included; "own" is the head's own skin with
+only the reference's paint. What is compared is the face label: with ears and neck, without hair.
 """
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from graphface import Evaluator, MemoryTier, UnreadableFile, load
+from graphface import Graph, UnreadableFile, load
+from graphface.nodes.bench.heads import Head
+from graphface.nodes.bench.metered import MeteredEvaluator
+from graphface.nodes.bench.pair_cost import joint_nodes, transfer_ms
 from graphface.nodes.image import read_image, write_image
 from graphface.nodes.metrics import psnr
 from graphface.nodes.types import FloatArray, Image, Mask
-
-if TYPE_CHECKING:
-    from graphface import Graph
+from graphface.values.writing import make_folder
 
 SWAPS: dict[str, dict[str, str]] = {
     "makeup": {},
@@ -35,19 +35,38 @@ SWAPS: dict[str, dict[str, str]] = {
 
 INTRINSIC = ("retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 
+TRUTHS = ("full", "own")
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Head A, the picture of its makeup's reference B, and the true answers by their meaning, of `TRUTHS`."""
+
+    name: str
+    head: Head
+    reference: Path
+    truths: Mapping[str, Path]
+
 
 @dataclass(frozen=True)
 class Scored:
-    """One method: means over the pairs. `milliseconds` of processor time, all threads, for the whole transfer of the
-    median pair, what each photo gives alone at hand; 0 where not measured."""
+    """One method: PSNR in dB and SSIM by truth, means over the pairs that have it.
+
+    `milliseconds` of CPU for the transfer of the median pair, what each photo gives alone at hand; None where a method
+    is no graph.
+    """
 
     method: str
-    psnr: float
-    ssim: float
-    milliseconds: float
+    psnr: Mapping[str, float]
+    ssim: Mapping[str, float]
+    milliseconds: float | None
 
 
-def makeup_truth(data: Path, out: Path, *, swaps: bool = True, intrinsic: bool = False) -> Iterator[Scored]:
+Method = Callable[[Path, Path], tuple[Image, float | None]]
+"""(photo, reference) to the result and its CPU milliseconds."""
+
+
+def makeup_truth(data: Path, out: Path, *, swaps: bool = True, intrinsic: bool = False) -> list[Scored]:
     """Every method on every pair; writes `out`/METHOD/A_from_B.png, as score.py reads them.
 
     Args:
@@ -57,20 +76,38 @@ def makeup_truth(data: Path, out: Path, *, swaps: bool = True, intrinsic: bool =
     Raises:
         UnreadableFile: there are no pairs at `data`.
     """
-    pairs = sorted((data / "truth" / "makeup").glob("*_from_*.png"))
-    if not pairs:
-        raise UnreadableFile(data / "truth" / "makeup", "holds no pairs (A_from_B.png)")
-    yield _scored("unchanged", pairs, out, lambda photo, reference: (read_image(photo), 0.0))
-    yield _scored("reinhard", pairs, out, lambda a, b: (reinhard(read_image(a), read_image(b)), 0.0))
-    memory = _Representations()
-    evaluator = Evaluator(memory=memory)
-    yield _scored("pasted", pairs, out, _pasted(evaluator))
+    pairs = pairs_of(data)
     chosen = dict(SWAPS) if swaps else {"makeup": {}}
     if intrinsic:
         nodes = ("pair/face/intrinsic", "pair/other/intrinsic")
         chosen |= {f"intrinsic.{m}": dict.fromkeys(nodes, f"intrinsic.{m}") for m in INTRINSIC}
-    for name, replace in chosen.items():
-        yield _scored(name, pairs, out, _runs(load("makeup", replace=replace), evaluator, memory))
+    evaluator = MeteredEvaluator()
+    methods: dict[str, Method] = {"unchanged": _unchanged, "reinhard": _reinhard, "pasted": _pasted(evaluator)}
+    methods |= {name: _runs(load("makeup", replace=replace), evaluator) for name, replace in chosen.items()}
+    return [_scored(name, method, pairs, out) for name, method in methods.items()]
+
+
+def pairs_of(data: Path) -> list[Pair]:
+    """The pairs of `data`: truth/makeup/A_from_B.png between heads of truth/, and those of makeup/.
+
+    The latter are makeup/A_from_B_full.png and makeup/A_from_B_own.png with the reference makeup/B_makeup.png.
+
+    Raises:
+        UnreadableFile: there are none.
+    """
+    truth, makeup = data / "truth", data / "makeup"
+    pairs = []
+    for path in sorted((truth / "makeup").glob("*_from_*.png")):
+        head, reference = path.stem.split("_from_")
+        pairs.append(Pair(path.stem, Head(truth / head), Head(truth / reference).path(), {"full": path}))
+    for path in sorted(makeup.glob("*_from_*_full.png")):
+        name = path.stem.removesuffix("_full")
+        head, reference = name.split("_from_")
+        truths = {meaning: makeup / f"{name}_{meaning}.png" for meaning in TRUTHS}
+        pairs.append(Pair(name, Head(truth / head), makeup / f"{reference}_makeup.png", truths))
+    if not pairs:
+        raise UnreadableFile(truth / "makeup", "holds no pairs (A_from_B.png)")
+    return pairs
 
 
 def reinhard(photo: Image, reference: Image) -> Image:
@@ -83,70 +120,66 @@ def reinhard(photo: Image, reference: Image) -> Image:
     return photo.with_pixels(np.clip(cv2.cvtColor(moved.astype(np.float32), cv2.COLOR_LAB2RGB), 0, 1))
 
 
-Method = Callable[[Path, Path], tuple[Image, float]]
-"""(photo, reference) to the result and the seconds it took."""
+def _unchanged(photo: Path, reference: Path) -> tuple[Image, None]:
+    return read_image(photo), None
 
 
-class _Representations(MemoryTier):
-    """Keeps what each photo gives alone and, once told, nothing else: every method is then timed whole."""
-
-    keeps = True
-
-    def put(self, key: bytes, value: Any, seconds: float, arrays: tuple[np.ndarray, ...] = ()) -> None:
-        if self.keeps:
-            super().put(key, value, seconds, arrays)
+def _reinhard(photo: Path, reference: Path) -> tuple[Image, None]:
+    return reinhard(read_image(photo), read_image(reference)), None
 
 
-def _runs(graph: Graph, evaluator: Evaluator, memory: _Representations) -> Method:
-    """The graph's image; what each photo gives alone is computed beforehand, so that only the transfer is timed."""
-    alone = [f"pair/{f}.{n}" for f in ("face", "other") for n in ("labels", "spread", "mask")]
-    alone += ["pair/face_detail", "pair/other_detail", "pair/face_bare", "pair/other_bare", "pair/in_front"]
-
-    def run(photo: Path, reference: Path) -> tuple[Image, float]:
-        graph.run(alone, evaluator=evaluator, photo=photo, reference=reference)
-        memory.keeps = False
-        started = time.process_time()
-        image = graph.run(["image"], evaluator=evaluator, photo=photo, reference=reference)["image"]
-        taken = time.process_time() - started
-        memory.keeps = True
-        return image, taken
-
-    return run
-
-
-def _pasted(evaluator: Evaluator) -> Method:
+def _pasted(evaluator: MeteredEvaluator) -> Method:
     """The reference through the meshes, pasted as it is."""
     from graphface.nodes.warp.resample import fetched
 
     graph = load("makeup", replace={"pair/flow": "flow.none"}, set={"pair/meshes.hidden": "input"})
     asked = ["pair/meshes", "pair.working", "pair.reference_working"]
 
-    def paste(photo: Path, reference: Path) -> tuple[Image, float]:
+    def paste(photo: Path, reference: Path) -> tuple[Image, None]:
         result = graph.run(asked, evaluator=evaluator, photo=photo, reference=reference)
         base: Image = result["pair.working"]
         warped = fetched(result["pair.reference_working"].pixels, result["pair/meshes"])
         inside = result["pair/meshes"].inside[..., None]
-        return base.with_pixels(base.pixels + inside * (warped - base.pixels)), 0.0
+        return base.with_pixels(base.pixels + inside * (warped - base.pixels)), None
 
     return paste
 
 
-def _scored(method: str, pairs: list[Path], out: Path, make: Method) -> Scored:
-    rows, seconds = [], []
-    (out / method).mkdir(parents=True, exist_ok=True)
+def _runs(graph: Graph, evaluator: MeteredEvaluator) -> Method:
+    """The graph's image; what needs both photos is let go again, so that memory holds every head's representation."""
+    joint = joint_nodes(graph)
+
+    def run(photo: Path, reference: Path) -> tuple[Image, float]:
+        image = graph.run(["image"], evaluator=evaluator, photo=photo, reference=reference)["image"]
+        spent = transfer_ms(evaluator, graph)
+        for node in joint:
+            evaluator.forget(evaluator.key(graph, node))
+        return image, spent
+
+    return run
+
+
+def _scored(name: str, method: Method, pairs: list[Pair], out: Path) -> Scored:
+    spent: list[float] = []
+    figures: dict[str, list[tuple[float, float]]] = {}
+    make_folder(out / name)
     for pair in pairs:
-        heads = [pair.parent.parent / name for name in pair.stem.split("_from_")]
-        photo, reference = (head / "frontal.png" for head in heads)
-        result, taken = make(photo, reference)
-        seconds.append(taken)
-        write_image(result, out / method / pair.name)
-        label = (read_image(heads[0] / "labels.png").pixels[..., 1] > 0.5).astype(np.float32)
-        rows.append(_compared(result.pixels, read_image(pair).pixels, label))
-    first, second = np.mean(rows, axis=0)
-    return Scored(method, float(first), float(second), 1e3 * float(np.median(seconds)))
+        result, milliseconds = method(pair.head.path(), pair.reference)
+        spent += [] if milliseconds is None else [milliseconds]
+        write_image(result, out / name / f"{pair.name}.png")
+        for truth, path in pair.truths.items():
+            figures.setdefault(truth, []).append(_compared(result.pixels, read_image(path).pixels, pair.head.face))
+    means = {truth: np.mean(rows, axis=0) for truth, rows in figures.items()}
+    return Scored(
+        method=name,
+        psnr={truth: float(mean[0]) for truth, mean in means.items()},
+        ssim={truth: float(mean[1]) for truth, mean in means.items()},
+        milliseconds=float(np.median(spent)) if spent else None,
+    )
 
 
 def _compared(result: FloatArray, truth: FloatArray, label: Mask) -> tuple[float, float]:
+    """PSNR and SSIM over a label, of the result as 8 bits hold it."""
     from skimage.metrics import structural_similarity
 
     shown = np.asarray(np.rint(np.clip(result, 0, 1) * 255) / 255, np.float32)

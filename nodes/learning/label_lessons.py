@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from graphface import GraphfaceError, warn
 from graphface.nodes.bench.heads import LIGHTS, heads_of
-from graphface.nodes.bench.segmentation_truth import true_labels
 from graphface.nodes.image import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.landmarks.network import network_pixels
@@ -68,10 +67,10 @@ def photo_lessons(paths: Iterable[Path]) -> Iterator[Lesson]:
 
 def head_lessons(data: Path) -> Iterator[Lesson]:
     """The heads of `data`/truth under every light, with their true labels and the landmarks found in each picture."""
-    for head in heads_of(data, "labels.png"):
-        labels = true_labels(head / "labels.png")[..., :2]
+    for head in heads_of(data):
+        labels = head.labels[..., :2]
         for light in LIGHTS:
-            photo = read_image(head / f"{light}.png")
+            photo = head.photo(light)
             try:
                 landmarks = find_landmarks(photo)
             except GraphfaceError as error:

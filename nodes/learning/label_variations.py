@@ -1,4 +1,4 @@
-"""Few photos, many pictures: lessons in other light, colours and frames, before other backdrops, with landmarks off."""
+"""Few photos, many pictures: lessons in other light, colors and frames, before other backdrops, with landmarks off."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def _plate(plate: Bytes, random: Generator) -> FloatArray:
 
 
 def _recolored(pixels: FloatArray, labels: FloatArray, person: FloatArray, random: Generator) -> FloatArray:
-    """Skin, hair, clothes and backdrop in other colours, each with its own chance."""
+    """Skin, hair, clothes and backdrop in other colors, each with its own chance."""
     import cv2
 
     face, hair = labels[..., 0], labels[..., 1]
@@ -121,7 +121,7 @@ def _recolored(pixels: FloatArray, labels: FloatArray, person: FloatArray, rando
 
 
 def _lit(pixels: FloatArray, random: Generator) -> FloatArray:
-    """Another exposure, white balance and contrast; light that falls off across the picture, sometimes coloured."""
+    """Another exposure, white balance and contrast; light that falls off across the picture, sometimes colored."""
     across = np.linspace(-1, 1, pixels.shape[1], dtype=np.float32)[None, :, None]
     down = np.linspace(-1, 1, pixels.shape[0], dtype=np.float32)[:, None, None]
     slopes = random.normal(0, 0.3, (2, 1)) * np.ones(3)

@@ -10,19 +10,13 @@ from __future__ import annotations
 from pathlib import Path
 from statistics import fmean
 
-import numpy as np
-from numpy.typing import NDArray
-
-from graphface.nodes.bench.heads import heads_of
-from graphface.nodes.image import read_image
-from graphface.nodes.landmarks.facemesh import facemesh
+from graphface import Evaluator, MemoryTier, Result
+from graphface.nodes.bench.geometry_graphs import model_graph
+from graphface.nodes.bench.heads import Head, heads_of
 from graphface.nodes.metrics import mean_angle
 from graphface.nodes.morphable.model import MorphableModel
-from graphface.nodes.morphable.morphable import morphable
 from graphface.nodes.morphable.relief import Difference, learned_relief, normal_difference, with_relief
 from graphface.nodes.morphable.storage import refined
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.types import Image, Landmarks
 
 _LEVELS = 1
 
@@ -37,7 +31,7 @@ def relief_of_heads(coarse: MorphableModel, data: Path) -> tuple[MorphableModel,
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
-    heads = [_Head(folder) for folder in heads_of(data)]
+    heads = [_Fitted(head) for head in heads_of(data)]
     plain = refined(coarse, _LEVELS)
     faces = [head.difference(plain) for head in heads]
     better = _with_relief_of(coarse, faces)
@@ -56,23 +50,21 @@ def _with_relief_of(coarse: MorphableModel, faces: list[Difference]) -> Morphabl
     return with_relief(coarse, learned_relief(coarse, _LEVELS, faces))
 
 
-class _Head:
-    photo: Image
-    landmarks: Landmarks
-    normals: NDArray[np.float32]
-    mask: NDArray[np.float32]
+class _Fitted:
+    """One head, and models fitted to its frontal photo by the shipped graph."""
 
-    def __init__(self, folder: Path) -> None:
-        self.photo = read_image(folder / "frontal.png")
-        self.landmarks = facemesh(self.photo)
-        self.mask = (read_image(folder / "labels.png").pixels[..., 1] > 0.5).astype(np.float32)
-        with np.load(folder / "aov.npz") as maps:
-            self.normals = maps["normal"].astype(np.float32)
+    def __init__(self, head: Head) -> None:
+        self._head = head
+        self._graph = model_graph()
+        self._evaluator = Evaluator(memory=MemoryTier())
 
     def difference(self, model: MorphableModel) -> Difference:
-        mesh = morphable(self.landmarks, model=model)
-        return normal_difference(mesh, rasterize(mesh, self.photo), self.normals, self.mask)
+        found = self._fit(model)
+        return normal_difference(found["mesh"], found["surface"], self._head.normals, self._head.face)
 
     def degrees_off(self, model: MorphableModel) -> float:
-        surface = rasterize(morphable(self.landmarks, model=model), self.photo)
-        return float(mean_angle(surface.normals, self.normals, self.mask))
+        return mean_angle(self._fit(model)["surface"].normals, self._head.normals, self._head.face)
+
+    def _fit(self, model: MorphableModel) -> Result:
+        asked = ["mesh", "surface"]
+        return self._graph.run(asked, evaluator=self._evaluator, photo=self._head.path(), model=model)
