@@ -71,11 +71,10 @@ def _segmented(
     inputs: dict[str, Any] = {"photo": head.path(light), "segment/label_weights": weights}
     truth = head.labels.argmax(axis=2)
     for matting, graph in graphs.items():
-        graph.run(["surface", labels, "labels"], evaluator=evaluator, **inputs)
+        graph.run([labels, MATTED], evaluator=evaluator, **inputs)
         surface, before, matted = (evaluator.key(graph, node) for node in ("surface", labels, MATTED))
-        for key in (before, matted):
-            evaluator.forget(key)  # run again: what a method imports is not what is measured
-        found = likeliest(graph.run([labels, MATTED], evaluator=evaluator, **inputs)[MATTED])
+        evaluator.forget(matted)  # run again: what a method imports is not what is measured
+        found = likeliest(graph.run([MATTED], evaluator=evaluator, **inputs)[MATTED])
         labels_ms, matting_ms = evaluator.cpu_ms(before, [surface]), evaluator.cpu_ms(matted, [before])
         evaluator.forget(matted)
         yield Segmented(

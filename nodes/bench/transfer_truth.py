@@ -16,7 +16,7 @@ import numpy as np
 from graphface import Graph, UnreadableFile, load
 from graphface.nodes.bench.heads import Head
 from graphface.nodes.bench.metered import MeteredEvaluator
-from graphface.nodes.bench.pair_cost import joint_nodes, transfer_ms
+from graphface.nodes.bench.pair_cost import transfer_ms
 from graphface.nodes.image import read_image, write_image
 from graphface.nodes.metrics import psnr
 from graphface.nodes.types import FloatArray, Image, Mask
@@ -146,15 +146,9 @@ def _pasted(evaluator: MeteredEvaluator) -> Method:
 
 
 def _runs(graph: Graph, evaluator: MeteredEvaluator) -> Method:
-    """The graph's image; what needs both photos is let go again, so that memory holds every head's representation."""
-    joint = joint_nodes(graph)
-
     def run(photo: Path, reference: Path) -> tuple[Image, float]:
         image = graph.run(["image"], evaluator=evaluator, photo=photo, reference=reference)["image"]
-        spent = transfer_ms(evaluator, graph)
-        for node in joint:
-            evaluator.forget(evaluator.key(graph, node))
-        return image, spent
+        return image, transfer_ms(evaluator, graph)
 
     return run
 

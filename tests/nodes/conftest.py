@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from graphface.assets.asset import AssetUnavailable
 from graphface.cli import main
-from graphface.nodes.bench.truth import LIGHTS
+from graphface.nodes.bench.heads import LIGHTS
+from graphface.nodes.colour import decode_srgb
 from graphface.nodes.image import write_picture
 from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
@@ -111,16 +112,24 @@ def face(networks: None) -> Picture:
 
 @pytest.fixture
 def heads(face: Picture, tmp_path: Path) -> Path:
-    """Ground truth of one head in the form of `truth/`: what is lit from a side is brighter there, by two stops."""
+    """Ground truth of one head in the form of `truth/`: what is lit from a side is brighter there, by two stops.
+
+    Its normals are those of an ellipsoid, its albedo is the frontal photo; it has no 68 points.
+    """
     head = tmp_path / "data/truth/gt01"
     head.mkdir(parents=True)
     across = np.clip((np.arange(128) - 64) / 24, -1, 1)[:, None]  # over the width of the face
     sides = {"left45": 2.0**-across, "right45": 2.0**across, "red_blue": 2.0 ** (-across * [1, 0, -1])}
-    for light in ("frontal", *LIGHTS):
+    for light in LIGHTS:
         factor = sides.get(light, np.array(0.5))
         lit = face if light == "frontal" else np.clip(face * factor * 0.5, 0, 255)
         write_picture(np.rint(lit).astype(np.uint8), head / f"{light}.png")
     write_picture(np.uint8([0, 255, 0]) * ellipse()[..., None], head / "labels.png")
+    y, x = np.mgrid[:128, :128]
+    across, down = (x - 64) / 24, (y - 60) / 27
+    inside = (1 - across**2 - down**2).clip(0)
+    normal = np.stack([across, -down, np.sqrt(inside)], axis=2) * (inside > 0)[..., None]
+    np.savez(head / "aov.npz", normal=normal, depth=70 - 2 * np.sqrt(inside), albedo=decode_srgb(face / 255))
     (head / "meta.json").write_text(json.dumps({"lights": area_lights()}))
     return tmp_path / "data"
 

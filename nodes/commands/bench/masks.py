@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from graphface.nodes.commands.bench.options import DATA, Data
+from graphface.nodes.commands.bench.options import DATA, Data, files_of
 
 if TYPE_CHECKING:
     from graphface.nodes.bench.segmentation_truth import Segmented
@@ -103,7 +103,7 @@ def _noise(photos: str, labels: str, weights: LabelWeights | None) -> None:
     from graphface.nodes.bench.segmentation_noise import segment_noise
     from graphface.report.terminal import print_table
 
-    found = sorted(segment_noise(_files(photos), labels=labels, weights=weights), key=lambda one: one.worst)
+    found = sorted(segment_noise(files_of([photos]), labels=labels, weights=weights), key=lambda one: one.worst)
     rows = [
         (one.photo, *(f"{value:.3f}" for value in (*one.overlaps, one.worst)), f"{one.milliseconds:.0f}")
         for one in found
@@ -118,7 +118,7 @@ def _agreement(photos: str, labels: str, weights: LabelWeights | None) -> None:
     from graphface.nodes.commands.bench.figures import mean_of
     from graphface.report.terminal import print_table
 
-    found = sorted(segment_agreement(_files(photos), labels=labels, weights=weights), key=lambda one: one.worst)
+    found = sorted(segment_agreement(files_of([photos]), labels=labels, weights=weights), key=lambda one: one.worst)
     groups = [*((one.photo, [one]) for one in found), ("mean", found)]
     rows = [
         (
@@ -129,9 +129,3 @@ def _agreement(photos: str, labels: str, weights: LabelWeights | None) -> None:
         for name, group in groups
     ]
     print_table(("photo", *(f">{label}" for label in LABELS), ">CPU ms", ">network's CPU ms"), rows)
-
-
-def _files(pattern: str) -> list[Path]:
-    from graphface.evaluate.mapping import files_at
-
-    return [Path(file) for file in files_at(pattern)]

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from graphface.nodes.commands.bench.options import Photos, files_of
+
 
 def matting(
-    photos: Annotated[list[str], typer.Argument(help="Photos: files, folders, or patterns like faces/nm_*.png.")],
+    photos: Photos,
     trust: Annotated[
         float, typer.Option(help="Weight of the soft labels, both ways; 1e-6: Levin's own system.")
     ] = 1e-4,
@@ -20,12 +21,10 @@ def matting(
     Data: any photographs with a face, labelled by the shipped representation. Prints for each the share of the band,
     the CPU seconds of both ways and their ratio, and the mean difference of the alphas over picture and band.
     """
-    from graphface.evaluate.mapping import files_at
     from graphface.nodes.bench.matting_speed import matting_speed
     from graphface.report.terminal import print_table
 
-    files = [Path(f) for where in photos for f in ([where] if Path(where).is_file() else files_at(where))]
-    found = list(matting_speed(files, trust=trust, tolerance=tolerance))
+    found = list(matting_speed(files_of(photos), trust=trust, tolerance=tolerance))
     rows = [
         (
             *(one.photo, "x".join(map(str, one.size)), f"{100 * one.share:.0f}"),

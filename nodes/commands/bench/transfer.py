@@ -7,9 +7,11 @@ from typing import Annotated
 
 import typer
 
+from graphface.nodes.commands.bench.options import files_of
+
 
 def transfer(
-    photos: Annotated[str, typer.Argument(help="Inputs: a folder, or a pattern like faces/nm_*.png.")],
+    photos: Annotated[str, typer.Argument(help="Inputs: a file, a folder, or a pattern like faces/nm_*.png.")],
     references: Annotated[str, typer.Argument(help="References: likewise.")],
     table: Annotated[Path | None, typer.Option(help="Also draw the table of results into this picture.")] = None,
     graph: Annotated[str, typer.Option(help="What --table draws: makeup or transfer.")] = "makeup",
@@ -21,13 +23,12 @@ def transfer(
     the seam around the paint is than the photo's own edges, how near the albedo came to the reference's, and the CPU
     time of the transfer once both photos are represented.
     """
-    from graphface.evaluate.mapping import files_at
     from graphface.nodes.bench.transfer_criteria import Refused, criteria
     from graphface.nodes.bench.transfer_table import transfer_table
     from graphface.nodes.image import write_picture
     from graphface.report.terminal import print_table
 
-    inputs, others = ([Path(file) for file in files_at(where)] for where in (photos, references))
+    inputs, others = files_of([photos]), files_of([references])
     if table is not None:
         write_picture(transfer_table(inputs, others, graph=graph), table)
     rows: list[tuple[str, ...]] = []

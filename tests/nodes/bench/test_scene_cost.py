@@ -59,27 +59,6 @@ class TestSceneCosts:
 
     def test_times_are_times(self, costs):
         """Positive and finite."""
-        spent = np.array([(c.milliseconds, c.copy) for c in costs.values()])
+        spent = np.array([(c.milliseconds, c.cpu_ms, c.copy) for c in costs.values()])
         assert np.isfinite(spent).all()
         assert (spent > 0).all()
-
-
-class TestBenchScenes:
-    def test_table(self, command, face, scenes, tmp_path, monkeypatch):
-        """One line for each, with nodes, effects, milliseconds and copies."""
-        monkeypatch.setattr(scene_cost, "shipped_scenes", lambda: scenes[:2])
-        write_picture(face, tmp_path / "me.png")
-        said = command("bench", "scenes", "--photo", tmp_path / "me.png", "--megapixels", 0.0164, "--repeats", 1)
-        assert said.code == 0, said.err
-        assert len(said.out.splitlines()) == 1 + len(scene_cost.PLAIN) + 2
-        nodes, *effects, milliseconds, copies = said.figures("soft-shadowed spot")
-        assert int(nodes) > 3
-        assert "shadows," in effects
-        assert float(milliseconds) > 0
-        assert float(copies) > 0
-
-    def test_missing_photo(self, command, tmp_path):
-        """A photo that does not exist is named."""
-        said = command("bench", "scenes", "--photo", tmp_path / "none.png")
-        assert said.code == 2
-        assert "none.png" in said.err

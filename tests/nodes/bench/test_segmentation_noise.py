@@ -7,34 +7,36 @@ import pytest
 from portraits import portrait
 
 from graphface import GraphfaceWarning
-from graphface.nodes.bench import segmentation_agreement
-from graphface.nodes.bench.segmentation_agreement import segment_agreement
-from graphface.nodes.bench.segmentation_noise import LEAST, Shaken, portraits, shaken
-from graphface.nodes.bench.segmentation_truth import segment_photo
+from graphface.nodes.bench import segmentation_noise
+from graphface.nodes.bench.segmentation_graphs import segmentation_graph
+from graphface.nodes.bench.segmentation_noise import LEAST, Portrait, Shaken, portraits, shaken
+from graphface.nodes.types import Segmentation
+
+
+def drawn(size):
+    photo, landmarks, _ = portrait(size)
+    return Portrait("drawn", photo, landmarks)
 
 
 class TestShaken:
     def test_drawn_head_keeps_its_labels(self):
         """Noise of one level leaves every label's overlap with itself at 0.98 or more."""
-        photo, landmarks, _ = portrait(300)
-        found = shaken("drawn", photo, landmarks)
+        found = shaken(drawn(300), segmentation_graph(points=True))
         assert found.worst >= 0.98
         assert sum(found.shares) == pytest.approx(1)
 
     def test_no_seeds_no_jump(self):
         """Without noise nothing is compared."""
-        photo, landmarks, _ = portrait(120)
-        assert shaken("drawn", photo, landmarks, seeds=0).overlaps == (1, 1, 1)
+        assert shaken(drawn(120), segmentation_graph(points=True), seeds=0).overlaps == (1, 1, 1)
 
     def test_noise_is_seen(self, monkeypatch):
-        """A segmentation that follows single levels is found out."""
-        from graphface.nodes.bench import segmentation_noise
+        """Labels that follow single levels are found out."""
 
-        monkeypatch.setattr(
-            segmentation_noise, "likeliest", lambda photo, *_: np.rint(photo.pixels[..., 0] * 255).astype(int) % 3
-        )
-        photo, landmarks, _ = portrait(120)
-        assert shaken("drawn", photo, landmarks).worst < 0.5
+        def by_level(labels: Segmentation):
+            return np.rint(labels.face * 1e4).astype(int) % 3
+
+        monkeypatch.setattr(segmentation_noise, "likeliest", by_level)
+        assert shaken(drawn(120), segmentation_graph(points=True)).worst < 0.9
 
     def test_scraps_are_not_judged(self):
         """A label of next to no pixel does not count for the worst."""
@@ -46,17 +48,3 @@ class TestShaken:
         (tmp_path / "index.csv").write_text("a,b")
         with pytest.warns(GraphfaceWarning, match=r"index\.csv is left out"):
             assert list(portraits([tmp_path / "index.csv"])) == []
-
-
-class TestAgreement:
-    def test_of_every_label(self, monkeypatch):
-        """Overlaps with the other labels; one that those lack is not judged."""
-        photo, landmarks, truth = portrait(120)
-        halves = np.where(truth == 1, 0, truth)
-        monkeypatch.setattr(segmentation_agreement, "portraits", lambda _: [("drawn", photo, landmarks)])
-        monkeypatch.setattr(
-            segmentation_agreement, "likeliest", lambda p, at, label: truth if label is segment_photo else halves
-        )
-        (found,) = segment_agreement([])
-        assert found.overlaps == ((truth == 0).sum() / (halves == 0).sum(), None, 1.0)
-        assert found.worst == found.overlaps[0]

@@ -3,11 +3,28 @@
 import numpy as np
 import pytest
 
-from graphface.nodes.bench.transfer_criteria import albedo_distance, feature_similarity, seam
-from graphface.nodes.bench.transfer_table import face_crop
-from graphface.nodes.bench.transfer_truth import reinhard
+from graphface.nodes.bench.transfer_criteria import (
+    Criteria,
+    Refused,
+    albedo_distance,
+    criteria,
+    feature_similarity,
+    landmark_shift,
+    seam,
+)
+from graphface.nodes.image import write_picture
 from graphface.nodes.makeup.features import features
-from graphface.nodes.types import Image
+from graphface.nodes.types import Landmarks
+
+
+@pytest.fixture
+def face_file(request, tmp_path):
+    """A photograph of a face as a file."""
+    from skimage.data import astronaut
+
+    request.getfixturevalue("networks")
+    write_picture(np.ascontiguousarray(astronaut()[:256, 96:352]), tmp_path / "me.png")
+    return tmp_path / "me.png"
 
 
 @pytest.fixture
@@ -59,22 +76,28 @@ class TestAlbedoDistance:
         )
 
 
-class TestReinhard:
-    def test_statistics_become_the_references(self, rng):
-        """Where no value is clipped, the mean colour is the reference's."""
-        one, other = (Image((0.4 + 0.1 * rng.random((32, 32, 3)) * s).astype(np.float32)) for s in (1.0, 0.5))
-        np.testing.assert_allclose(
-            reinhard(one, other).pixels.mean(axis=(0, 1)), other.pixels.mean(axis=(0, 1)), atol=5e-3
-        )
-
-    def test_a_flat_photo(self):
-        """No deviation to scale: finite."""
-        flat = Image(np.full((8, 8, 3), 0.5, np.float32))
-        assert np.isfinite(reinhard(flat, flat).pixels).all()
+class TestLandmarkShift:
+    def test_in_eye_distances(self, face):
+        """Everything moved by a tenth of the eye distance is a shift of 0.1."""
+        landmarks = face[1]
+        moved = Landmarks(landmarks.points + np.float32([0.1 * landmarks.interocular, 0, 0]), landmarks.scheme)
+        assert landmark_shift(landmarks, landmarks) == 0
+        assert landmark_shift(landmarks, moved) == pytest.approx(0.1, rel=1e-3)
 
 
-class TestFaceCrop:
-    @pytest.mark.parametrize("side", [16, 300])
-    def test_square(self, face, side):
-        """The crop has the size that was asked for, smaller or larger than the face."""
-        assert face_crop(face[0], face[1], side).shape == (side, side, 3)
+class TestCriteria:
+    def test_a_photo_under_itself(self, face_file):
+        """Nothing moves, the seam is the photo's own, and what it cost is told."""
+        (found,) = criteria([face_file], [face_file])
+        assert isinstance(found, Criteria)
+        assert found.shift < 0.02
+        assert found.seam == pytest.approx(1, abs=0.1)
+        assert found.albedo_before < 0.05
+        assert found.milliseconds > 0
+
+    def test_a_pair_that_cannot_be_made(self, networks, face_file, tmp_path):
+        """The reason stands in its place."""
+        (tmp_path / "not.png").write_text("no picture")
+        (found,) = criteria([face_file], [tmp_path / "not.png"])
+        assert isinstance(found, Refused)
+        assert "not.png" in found.reason
