@@ -31,7 +31,7 @@ class Portrait:
 
 
 @dataclass(frozen=True)
-class Shaken:
+class UnderNoise:
     """Overlap of each label with itself under noise, the worst of all seeds, in the order face, hair, background.
 
     `shares`: how much of the picture each label covers. `worst`: the least overlap of a label of at least `LEAST`.
@@ -50,14 +50,14 @@ class Shaken:
 
 def segment_noise(
     photos: Iterable[Path], seeds: int = 2, *, labels: str = "classify", weights: LabelWeights | None = None
-) -> Iterator[Shaken]:
+) -> Iterator[UnderNoise]:
     """Segment every photo as it is and with noise; `labels` is one of `LABELLINGS`, `weights` are those of the cue.
 
     The landmarks are those of the photo without noise: how steady they are is another stage's promise.
     """
     graph = segmentation_graph(labels, points=True)
     for portrait in portraits(photos):
-        yield shaken(portrait, graph, seeds, weights)
+        yield under_noise(portrait, graph, seeds, weights)
 
 
 def portraits(photos: Iterable[Path]) -> Iterator[Portrait]:
@@ -73,7 +73,7 @@ def portraits(photos: Iterable[Path]) -> Iterator[Portrait]:
         yield Portrait(path.stem, photo, found["landmarks"])
 
 
-def shaken(portrait: Portrait, graph: Graph, seeds: int = 2, weights: LabelWeights | None = None) -> Shaken:
+def under_noise(portrait: Portrait, graph: Graph, seeds: int = 2, weights: LabelWeights | None = None) -> UnderNoise:
     """One photo through a graph with the input `points`; noise adds -1, 0 or 1 level of 255 to every value."""
     evaluator = MeteredEvaluator()
     pixels = portrait.photo.pixels
@@ -86,4 +86,4 @@ def shaken(portrait: Portrait, graph: Graph, seeds: int = 2, weights: LabelWeigh
         noisy = portrait.photo.with_pixels(np.clip(pixels + noise, 0, 1))
         after = likeliest(graph.run(["labels"], evaluator=evaluator, photo=noisy, **given)["labels"])
         kept = tuple(map(min, kept, overlaps(before, after)))
-    return Shaken(portrait.name, kept, tuple(float((before == k).mean()) for k in range(len(LABELS))), spent)
+    return UnderNoise(portrait.name, kept, tuple(float((before == k).mean()) for k in range(len(LABELS))), spent)

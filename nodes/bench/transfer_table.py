@@ -56,8 +56,8 @@ def face_crop(image: Image, landmarks: Landmarks, side: int) -> Picture:
     scale = side / max(1.5 * float((high - low).max()), 1.0)
     offset = side / 2 - scale * (low + high) / 2
     matrix = np.array([[scale, 0, offset[0]], [0, scale, offset[1]]], np.float32)
-    way = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
-    cropped = cv2.warpAffine(Image.picture(image), matrix, (side, side), flags=way, borderValue=(24, 24, 24))
+    interpolation = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+    cropped = cv2.warpAffine(Image.picture(image), matrix, (side, side), flags=interpolation, borderValue=(24, 24, 24))
     return np.asarray(cropped, np.uint8)
 
 

@@ -23,27 +23,27 @@ _SUFFIXES = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"}
 
 
 def learn_from_photos(
-    folder: Path, people: Path | None, name: str, *, identity: int, expression: int, words: Path | None = None
+    folder: Path, people: Path | None, name: str, *, identity: int, expression: int, card: Path | None = None
 ) -> tuple[MorphableModel, Lesson]:
-    """Find the points on every photo and learn from them; the card tells the figures, and `words` (JSON) the rest.
+    """Find the points on every photo and learn from them; the model's card has the figures, and `card` (JSON) the rest.
 
     Raises:
         UnreadableFile: a folder without a photo that has a face; a card that is not JSON.
     """
-    said = words_of(words)
+    given = read_card(card)
     _, faces = points_in(folder)
     names, of_people = points_in(people) if people is not None else ([], np.zeros((0, 468, 3)))
     persons = [file.rsplit("_", 1)[0] for file in names]
     model, lesson = learn_model(name, faces, of_people, persons, identity=identity, expression=expression)
-    card: dict[str, Any] = {
-        **said,
+    full: dict[str, Any] = {
+        **given,
         "refine": 1,
         "command": f"graphface models learn {folder.name}/"
         + (f" --people {people.name}/" if people is not None else "")
         + f" --identity {identity} --expression {expression}",
         "figures": {key: round(value, 3) for key, value in asdict(lesson).items()},
     }
-    return replace(model, card=card), lesson
+    return replace(model, card=full), lesson
 
 
 def points_in(folder: Path) -> tuple[list[str], NDArray[np.float64]]:
@@ -71,8 +71,8 @@ def _progress(folder: Path) -> Iterator[Path]:
     yield from track(photos, description=folder.name, disable=not sys.stderr.isatty())
 
 
-def words_of(path: Path | None) -> dict[str, Any]:
-    """The JSON card at `path`; none: no words.
+def read_card(path: Path | None) -> dict[str, Any]:
+    """The JSON card at `path`; empty without one.
 
     Raises:
         UnreadableFile: it is not one JSON object.
@@ -80,9 +80,9 @@ def words_of(path: Path | None) -> dict[str, Any]:
     if path is None:
         return {}
     try:
-        said = json.loads(path.read_text(encoding="utf-8"))
+        card = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise UnreadableFile(path, f"not a JSON card: {error}") from error
-    if not isinstance(said, dict):
+    if not isinstance(card, dict):
         raise UnreadableFile(path, "a card is one JSON object")
-    return said
+    return card

@@ -75,7 +75,7 @@ def learn_labels(
         "teacher": "MediaPipe selfie_multiclass_256x256 (Apache-2.0), by masks.network",
         "photographs": len(plates),
         "path_traced_pictures": len(heads),
-        "variations": len(examples.shown),
+        "variations": len(examples.cells),
         "course": asdict(course),
         **({"without": list(without)} if without else {}),
     }
@@ -83,20 +83,20 @@ def learn_labels(
 
 
 def examples_of(lessons: Sequence[tuple[Lesson, int]], plates: Sequence[Lesson], seed: int) -> Examples:
-    """As many variations of each lesson as is said; about 160 KB each."""
+    """As many variations of each lesson as its number says; about 160 KB each."""
     from rich.progress import track
 
     count, random = sum(number for _, number in lessons), np.random.default_rng(seed)
-    shown = np.empty((count, CHANNELS, HEIGHT // 2, WIDTH // 2), np.float16)
+    cells = np.empty((count, CHANNELS, HEIGHT // 2, WIDTH // 2), np.float16)
     labels, weight = np.empty((count, 3, HEIGHT, WIDTH), np.float16), np.empty((count, HEIGHT, WIDTH), np.float16)
     place = 0
     for lesson, number in track(lessons, description="variations", disable=not sys.stderr.isatty()):
         for _ in range(number):
             made = example(lesson, plates, random)
-            shown[place], labels[place] = made.shown.transpose(2, 0, 1), made.labels.transpose(2, 0, 1)
+            cells[place], labels[place] = made.cells.transpose(2, 0, 1), made.labels.transpose(2, 0, 1)
             weight[place] = made.weight
             place += 1
-    return Examples(shown, labels, weight)
+    return Examples(cells, labels, weight)
 
 
 def _pictures(folder: Path, without: Sequence[str]) -> list[Path]:

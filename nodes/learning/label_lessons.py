@@ -23,7 +23,7 @@ from graphface.nodes.types import FloatArray, Image, Landmarks
 
 Bytes = NDArray[np.uint8]
 
-ROOM, FINE = 4 / 3, 3
+MARGIN, FINE = 4 / 3, 3
 """How much wider a lesson's picture is than the network's grid, and how many times finer that grid."""
 
 CERTAINTY = 2.0
@@ -35,7 +35,7 @@ BACKDROP = 0
 
 @dataclass(frozen=True)
 class Lesson:
-    """One picture upright, with room about it, h x w (x C) as bytes.
+    """One picture upright, with a margin about it, h x w (x C) as bytes.
 
     `pixels` sRGB; `seen` 255 within the photo; `labels` face and hair; `person` all that is no backdrop; `plate` the
     backdrop without the person. `landmarks` in this picture's pixels.
@@ -83,8 +83,8 @@ def lesson(name: str, photo: Image, landmarks: Landmarks, labels: FloatArray, pe
     """Everything about one picture on its lesson's grid."""
     grid = upright_of(landmarks)
     middle = np.array([WIDTH - 1, HEIGHT - 1]) / 2
-    matrix = grid.matrix / ROOM
-    matrix[:, 2] += middle * (1 - 1 / ROOM)
+    matrix = grid.matrix / MARGIN
+    matrix[:, 2] += middle * (1 - 1 / MARGIN)
     wide = Upright(matrix)
     pixels = np.clip(wide.sampled(network_pixels(photo.pixels, photo.encoding), FINE), 0, 1)
     maps = np.clip(wide.sampled(np.dstack([labels, person]), FINE), 0, 1)

@@ -19,10 +19,10 @@ BATCH, RATE, DECAY = 8, 4e-3, 1e-2
 
 @dataclass(frozen=True)
 class Examples:
-    """What `label_variations` made of lessons, float16: `shown` (N, C, h, w), `labels` (N, 3, 2h, 2w) and `weight`
+    """What `label_variations` made of lessons, float16: `cells` (N, C, h, w), `labels` (N, 3, 2h, 2w) and `weight`
     (N, 2h, 2w)."""
 
-    shown: NDArray[np.float16]
+    cells: NDArray[np.float16]
     labels: NDArray[np.float16]
     weight: NDArray[np.float16]
 
@@ -43,10 +43,10 @@ def trained(examples: Examples, *, steps: int, seed: int = 0) -> dict[str, Any]:
     running = 0.0
     for step in range(steps):
         if len(order) < BATCH:
-            order = random.permutation(len(examples.shown)).tolist()
+            order = random.permutation(len(examples.cells)).tolist()
         chosen, order = sorted(order[:BATCH]), order[BATCH:]
         cells, labels, weight = (
-            torch.from_numpy(part[chosen]).float() for part in (examples.shown, examples.labels, examples.weight)
+            torch.from_numpy(part[chosen]).float() for part in (examples.cells, examples.labels, examples.weight)
         )
         logits = net(cells.to(memory_format=torch.channels_last))
         losses = weight * -(labels * torch.log_softmax(logits, dim=1)).sum(dim=1)

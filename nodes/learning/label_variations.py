@@ -19,9 +19,9 @@ UNSURE = 0.25
 
 @dataclass(frozen=True)
 class Example:
-    """`shown` (HEIGHT/2, WIDTH/2, C), what the network sees; `labels` HEIGHT x WIDTH x 3, `weight` HEIGHT x WIDTH."""
+    """`cells` (HEIGHT/2, WIDTH/2, C), what the network sees; `labels` HEIGHT x WIDTH x 3, `weight` HEIGHT x WIDTH."""
 
-    shown: FloatArray
+    cells: FloatArray
     labels: FloatArray
     weight: FloatArray
 
@@ -31,11 +31,11 @@ def example(lesson: Lesson, others: Sequence[Lesson], random: Generator) -> Exam
     landmarks = _misplaced(lesson.landmarks, random)
     grid = upright_of(landmarks)
 
-    def taken(values: Bytes) -> FloatArray:
+    def sampled(values: Bytes) -> FloatArray:
         return np.asarray(grid.sampled(values) / 255, np.float32)
 
-    pixels, labels, person = taken(lesson.pixels), taken(lesson.labels), taken(lesson.person)
-    seen = (taken(lesson.seen) > 0.5) * _frame(random)
+    pixels, labels, person = sampled(lesson.pixels), sampled(lesson.labels), sampled(lesson.person)
+    seen = (sampled(lesson.seen) > 0.5) * _frame(random)
     if random.random() < 0.3:
         other = others[int(random.integers(len(others)))].plate
         plate = _plate(other, random)

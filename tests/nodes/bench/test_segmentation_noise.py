@@ -9,7 +9,7 @@ from portraits import portrait
 from graphface import GraphfaceWarning
 from graphface.nodes.bench import segmentation_noise
 from graphface.nodes.bench.segmentation_graphs import segmentation_graph
-from graphface.nodes.bench.segmentation_noise import LEAST, Portrait, Shaken, portraits, shaken
+from graphface.nodes.bench.segmentation_noise import LEAST, Portrait, UnderNoise, portraits, under_noise
 from graphface.nodes.types import Segmentation
 
 
@@ -18,16 +18,16 @@ def drawn(size):
     return Portrait("drawn", photo, landmarks)
 
 
-class TestShaken:
+class TestUnderNoise:
     def test_drawn_head_keeps_its_labels(self):
         """Noise of one level leaves every label's overlap with itself at 0.98 or more."""
-        found = shaken(drawn(300), segmentation_graph(points=True))
+        found = under_noise(drawn(300), segmentation_graph(points=True))
         assert found.worst >= 0.98
         assert sum(found.shares) == pytest.approx(1)
 
     def test_no_seeds_no_jump(self):
         """Without noise nothing is compared."""
-        assert shaken(drawn(120), segmentation_graph(points=True), seeds=0).overlaps == (1, 1, 1)
+        assert under_noise(drawn(120), segmentation_graph(points=True), seeds=0).overlaps == (1, 1, 1)
 
     def test_noise_is_seen(self, monkeypatch):
         """Labels that follow single levels are found out."""
@@ -36,11 +36,11 @@ class TestShaken:
             return np.rint(labels.face * 1e4).astype(int) % 3
 
         monkeypatch.setattr(segmentation_noise, "likeliest", by_level)
-        assert shaken(drawn(120), segmentation_graph(points=True)).worst < 0.9
+        assert under_noise(drawn(120), segmentation_graph(points=True)).worst < 0.9
 
     def test_scraps_are_not_judged(self):
         """A label of next to no pixel does not count for the worst."""
-        found = Shaken("x", overlaps=(0.99, 0.2, 0.985), shares=(0.6, LEAST / 2, 0.4))
+        found = UnderNoise("x", overlaps=(0.99, 0.2, 0.985), shares=(0.6, LEAST / 2, 0.4))
         assert found.worst == 0.985
 
     def test_other_files_are_left_out(self, tmp_path):

@@ -68,8 +68,8 @@ class TestExample:
     def test_any_variation(self, seed):
         """Finite, of the network's shapes, labels that sum to 1, weights within 0 and 1."""
         made = example(LESSON, [LESSON], np.random.default_rng(seed))
-        assert made.shown.shape == (HEIGHT // 2, WIDTH // 2, CHANNELS)
-        assert np.isfinite(made.shown).all()
+        assert made.cells.shape == (HEIGHT // 2, WIDTH // 2, CHANNELS)
+        assert np.isfinite(made.cells).all()
         np.testing.assert_allclose(made.labels.sum(axis=2), 1, atol=1e-4)
         assert made.weight.min() >= 0
         assert made.weight.max() <= 1
@@ -77,7 +77,7 @@ class TestExample:
     def test_the_same_again(self):
         """The same seed, the same variation."""
         one, other = (example(LESSON, [LESSON], np.random.default_rng(5)) for _ in range(2))
-        np.testing.assert_array_equal(one.shown, other.shown)
+        np.testing.assert_array_equal(one.cells, other.cells)
 
     def test_labels_stay_with_the_face(self):
         """Whatever was varied, the middle of the face is face."""
@@ -107,7 +107,7 @@ class TestTrained:
         state = trained(examples, steps=20)
         net = network()
         net.load_state_dict(state)
-        cells = examples.shown[:1].astype(np.float32)
+        cells = examples.cells[:1].astype(np.float32)
         expected = net.eval()(torch.from_numpy(cells))[0].detach().numpy().transpose(1, 2, 0)
         weights = {name: values.astype(np.float32) for name, values in folded(state).items()}
         np.testing.assert_allclose(label_scores(cells[0].transpose(1, 2, 0), weights), expected, atol=0.02)
@@ -116,7 +116,7 @@ class TestTrained:
         """As many variations of a lesson as the course says."""
         examples = examples_of([(LESSON, 3)], [LESSON], 0)
         assert isinstance(examples, Examples)
-        assert len(examples.shown) == len(examples.labels) == len(examples.weight) == 3
+        assert len(examples.cells) == len(examples.labels) == len(examples.weight) == 3
 
 
 class TestLearnLabels:
