@@ -51,17 +51,18 @@ class Case:
     crop: int = 0
 
 
-def head_cases(data: Path) -> Iterator[Case]:
-    """The path-traced heads of `data`/truth, from `frontal` to every other light, compared over the face label.
+def head_cases(data: Path, source: str = LIGHTS[0]) -> Iterator[Case]:
+    """The path-traced heads of `data`/truth, from one light to every other, compared over the face label.
 
     Raises:
         UnreadableFile: there are no heads at `data`.
     """
     for head in heads_of(data):
-        photo = head.photo()
-        for light in LIGHTS[1:]:
-            scene = partial(_head_scene, head, light)
-            yield Case(head.name, light, photo, scene, head.photo(light).pixels, head.face)
+        photo = head.photo(source)
+        for light in LIGHTS:
+            if light != source:
+                scene = partial(_head_scene, head, source, light)
+                yield Case(head.name, light, photo, scene, head.photo(light).pixels, head.face)
 
 
 def yale_cases(data: Path, every: int = 1) -> Iterator[Case]:
@@ -95,8 +96,8 @@ def yale_scene(name: str, unit: float = 1.0) -> Scene:
     return Scene(ambient=_AMBIENT / unit, lights=(lamp,), keep_mean=False, background=1)
 
 
-def _head_scene(head: Head, light: str, normals: FloatArray) -> Scene:
-    unit = float(irradiance(known_scene(head.lights[LIGHTS[0]]), normals).mean())
+def _head_scene(head: Head, source: str, light: str, normals: FloatArray) -> Scene:
+    unit = float(irradiance(known_scene(head.lights[source]), normals).mean())
     return known_scene(head.lights[light], max(unit, _LEAST_UNIT))
 
 

@@ -18,18 +18,20 @@ def lights(
     out: Annotated[Path | None, typer.Argument(help="Folder for the results, as score.py reads them.")] = None,
     data: Data = DATA,
     truth: Annotated[str, typer.Option(help="heads: path-traced; yale: photographs, one light at a time.")] = "heads",
+    source: Annotated[str, typer.Option(help="Light of the heads' photo: frontal, left45 ...")] = "frontal",
     variant: Annotated[list[str] | None, typer.Option(help="By name; `all` for every one.")] = None,
     every: Annotated[int, typer.Option(min=1, help="Take every n-th person of the Yale set.")] = 1,
 ) -> None:
     """Relight by known lights with the shipped graph and with parts of it changed: what each gains and costs.
 
-    Data: the path-traced heads of truth/, from their frontal photo to every other light, over the face; or the people
+    Data: the path-traced heads of truth/, from the photo under one light to every other, over the face; or the people
     of yaleb/, over the whole crop. Prints a row for the unchanged photo and for each variant: scale-invariant PSNR in
     dB (Yale: scale-invariant MSE) for each light and on average, SSIM, and the CPU time of a change of the light.
 
     With a folder and several variants, a contact sheet of each head or person beside the truth is written too.
     """
     from graphface import UsageError
+    from graphface.nodes.bench.heads import LIGHTS
     from graphface.nodes.bench.known_light_cases import head_cases, yale_cases
     from graphface.nodes.bench.known_lights import UNCHANGED, relight_known
     from graphface.nodes.bench.variant_sheet import variant_sheets
@@ -37,8 +39,10 @@ def lights(
 
     if truth not in ("heads", "yale"):
         raise UsageError(f"--truth {truth!r}: expected heads or yale")
+    if source not in LIGHTS:
+        raise UsageError(f"--source {source!r}: expected {', '.join(LIGHTS)}")
     chosen = _chosen(variant)
-    cases = head_cases(data) if truth == "heads" else yale_cases(data, every)
+    cases = head_cases(data, source) if truth == "heads" else yale_cases(data, every)
     found = list(relight_known(cases, chosen, out))
     names = list(dict.fromkeys(figure.light for figure in found))
     kind, digits = ("si_psnr", 2) if truth == "heads" else ("si_mse", 4)

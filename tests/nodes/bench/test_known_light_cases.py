@@ -58,6 +58,13 @@ class TestHeadCases:
             assert case.photo.pixels[0, 0, 0] == pytest.approx(100 / 255)
             assert case.truth[0, 0, 0] == pytest.approx((110 + 10 * place) / 255)
 
+    def test_from_another_light(self, drawn):
+        """To all but that one; irradiance is in the unit of the light that the photo is in."""
+        cases = list(head_cases(drawn, "ambient"))[: len(LIGHTS) - 1]
+        assert [case.light for case in cases] == [light for light in LIGHTS if light != "ambient"]
+        assert cases[0].photo.pixels[0, 0, 0] == pytest.approx((100 + 10 * LIGHTS.index("ambient")) / 255)
+        np.testing.assert_allclose(irradiance(cases[0].scene(FORWARD), FORWARD), 0.2 / np.pi, rtol=1e-5)
+
     def test_compared_over_the_face_label(self, drawn):
         """The mask is the green of labels.png."""
         mask = next(head_cases(drawn)).mask

@@ -20,6 +20,7 @@ class TestBenchLights:
         [
             (("--variant", "no shadow"), "no shadows"),
             (("--truth", "head"), "heads or yale"),
+            (("--source", "left54"), "expected frontal, left45"),
             (("--data", "nowhere"), "holds no heads"),
             (("--truth", "yale", "--data", "nowhere"), "holds no people"),
         ],
