@@ -18,8 +18,8 @@ from graphface import Graph
 from graphface.nodes.bench.geometry_graphs import geometry_graph, model_graph
 from graphface.nodes.bench.heads import LIGHTS, Head, heads_of
 from graphface.nodes.bench.metered import MeteredEvaluator
-from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
-from graphface.nodes.metrics import mean_angle
+from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
+from graphface.nodes.metrics.geometry import mean_angle
 from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
 from graphface.nodes.types import Mesh
 

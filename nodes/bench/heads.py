@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import UnreadableFile
-from graphface.nodes.image import read_image
-from graphface.nodes.render.scene import DirectionalLight, Scene
-from graphface.nodes.types import FloatArray, Image, Mask, Normals
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.types import DirectionalLight, FloatArray, Image, Mask, Normals, Scene
 
 LIGHTS = ("frontal", "left45", "right45", "top", "left80_hard", "ambient", "red_blue")
 """Under which each head was traced: LIGHT.png in its folder. The first is the photo that is relit."""

@@ -14,10 +14,9 @@ import numpy as np
 
 from graphface import UnreadableFile
 from graphface.nodes.bench.heads import LIGHTS, Head, heads_of, known_scene
-from graphface.nodes.image import read_image
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.render.irradiance import irradiance
-from graphface.nodes.render.scene import DirectionalLight, Scene
-from graphface.nodes.types import FloatArray, Image
+from graphface.nodes.types import DirectionalLight, FloatArray, Image, Scene
 
 YALE_LIGHTS = (
     *("A+025E+00", "A-025E+00", "A+050E+00", "A-050E+00"),

@@ -18,10 +18,9 @@ from graphface import load
 from graphface.evaluate.session import Session
 from graphface.nodes.bench.known_light_cases import Case
 from graphface.nodes.bench.metered import MeteredEvaluator
-from graphface.nodes.colour import decode_srgb
-from graphface.nodes.image import write_image
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.types import FloatArray, Image
+from graphface.nodes.color import decode_srgb
+from graphface.nodes.io.image_write import write_image
+from graphface.nodes.types import FloatArray, Image, Scene
 from graphface.values.writing import make_folder
 
 UNCHANGED = "unchanged photo"

@@ -8,16 +8,16 @@ ran, and the cost of a result is the sum over the nodes behind it.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from graphface import Evaluator, MemoryTier, Observer, Result
 
 if TYPE_CHECKING:
-    from graphface import Graph
-    from graphface.evaluate.observe import Record
-    from graphface.graph.inputs import Bound
-    from graphface.graph.wiring import Ref, Step
+    from graphface.graph.request import Request
+    from graphface.graph.structure import Step
+    from graphface.graph.wired import WiredGraph
+    from graphface.record import Record
 
 
 class MeteredEvaluator(Evaluator):
@@ -31,16 +31,17 @@ class MeteredEvaluator(Evaluator):
         self._costs = _Costs()
         super().__init__(memory=MemoryTier(), observers=[self._costs])
 
-    def run(self, graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]) -> Result:
+    def run(self, request: Request, observers: Sequence[Observer] = ()) -> Result:
         from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
-        self._costs.keys = graph.keys(bound)
         with threadpool_limits(1, user_api="blas"):
-            return super().run(graph, bound, targets)
+            return super().run(request, observers)
 
-    def key(self, graph: Graph, output: str) -> bytes:
-        """The cache key that an output of this graph, or a node's, had in the last run."""
-        return self._costs.keys[graph.targets([output])[output].slot]
+    def key(self, graph: WiredGraph, output: str) -> bytes:
+        """The cache key that an output of this graph, or a node's, had in the graph's last run."""
+        keys = self.last_keys(graph)
+        assert keys is not None
+        return keys.by_slot[graph.targets([output])[output].slot]
 
     def cpu_ms(self, key: bytes, given: Iterable[bytes] = ()) -> float:
         """CPU milliseconds of all that a result needs and that none of the `given` results needs as well."""
@@ -55,17 +56,17 @@ class MeteredEvaluator(Evaluator):
 
 
 class _Costs(Observer):
-    """CPU `seconds` of each node by key, and the keys of all that is `behind` it, its own among them.
-
-    `keys` are those of the run at hand, by slot.
-    """
+    """CPU `seconds` of each node by key, and the keys of all that is `behind` it, its own among them."""
 
     def __init__(self) -> None:
         self.seconds: dict[bytes, float] = {}
         self.behind: dict[bytes, frozenset[bytes]] = {}
-        self.keys: Sequence[bytes] = ()
+        self._keys: Sequence[bytes] = ()
         self._declined: set[tuple[bytes, str]] = set()
         self._started = 0.0
+
+    def run_started(self, request: Request) -> None:
+        self._keys = request.keys.by_slot
 
     def node_started(self, name: str, step: Step | None) -> None:
         self._started = time.process_time()
@@ -80,5 +81,5 @@ class _Costs(Observer):
             took = time.process_time() - self._started
             self.seconds[key] = min(took, self.seconds.get(key, took))
             wired = [argument for argument in step.arguments if (key, argument.port) not in self._declined]
-            above = {self.keys[ref.slot] for argument in wired for ref in argument.refs}
+            above = {self._keys[ref.slot] for argument in wired for ref in argument.refs}
             self.behind[key] = frozenset({key}).union(*(self.behind.get(other, ()) for other in above))

@@ -13,7 +13,7 @@ from graphface.nodes.bench.heads import LABELS
 from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.bench.segmentation_graphs import segmentation_graph
 from graphface.nodes.bench.segmentation_truth import likeliest, overlaps
-from graphface.nodes.image import read_image
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.masks.label_weights import LabelWeights
 from graphface.nodes.types import Image, Landmarks
 

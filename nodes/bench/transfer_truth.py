@@ -17,8 +17,9 @@ from graphface import Graph, UnreadableFile, load
 from graphface.nodes.bench.heads import Head
 from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.bench.pair_cost import transfer_ms
-from graphface.nodes.image import read_image, write_image
-from graphface.nodes.metrics import psnr
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_image
+from graphface.nodes.metrics.pictures import psnr
 from graphface.nodes.types import FloatArray, Image, Mask
 from graphface.values.writing import make_folder
 
@@ -130,7 +131,7 @@ def _reinhard(photo: Path, reference: Path) -> tuple[Image, None]:
 
 def _pasted(evaluator: MeteredEvaluator) -> Method:
     """The reference through the meshes, pasted as it is."""
-    from graphface.nodes.warp.resample import fetched
+    from graphface.nodes.resample import fetched
 
     graph = load("makeup", replace={"pair/flow": "flow.none"}, set={"pair/meshes.hidden": "input"})
     asked = ["pair/meshes", "pair.working", "pair.reference_working"]

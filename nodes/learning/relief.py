@@ -13,7 +13,7 @@ from statistics import fmean
 from graphface import Evaluator, MemoryTier, Result
 from graphface.nodes.bench.geometry_graphs import model_graph
 from graphface.nodes.bench.heads import Head, heads_of
-from graphface.nodes.metrics import mean_angle
+from graphface.nodes.metrics.geometry import mean_angle
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.morphable.relief import Difference, learned_relief, normal_difference, with_relief
 from graphface.nodes.morphable.storage import refined

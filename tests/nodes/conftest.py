@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from graphface.assets.asset import AssetUnavailable
 from graphface.cli import main
 from graphface.nodes.bench.heads import LIGHTS
-from graphface.nodes.colour import decode_srgb
-from graphface.nodes.image import write_picture
-from graphface.nodes.morphable.facemesh import facemesh
+from graphface.nodes.color import decode_srgb
+from graphface.nodes.geometry.facemesh import facemesh
+from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.morphable.topology import facemesh_topology
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mesh, Surface
 
 

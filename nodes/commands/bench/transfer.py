@@ -25,7 +25,7 @@ def transfer(
     """
     from graphface.nodes.bench.transfer_criteria import Refused, criteria
     from graphface.nodes.bench.transfer_table import transfer_table
-    from graphface.nodes.image import write_picture
+    from graphface.nodes.io.image_write import write_picture
     from graphface.report.terminal import print_table
 
     inputs, others = files_of([photos]), files_of([references])

@@ -9,7 +9,7 @@ import pytest
 
 from graphface import GraphfaceWarning, UnreadableFile
 from graphface.nodes.bench.geometry_photos import automatic_photos, portrait_residuals, pose_photos
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.morphable.builtin import builtin_model
 
 

@@ -10,7 +10,7 @@ import pytest
 from graphface import UnreadableFile
 from graphface.nodes.bench.heads import LIGHTS
 from graphface.nodes.bench.known_light_cases import YALE_LIGHTS, head_cases, yale_cases, yale_scene
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.render.irradiance import irradiance
 
 FORWARD = np.float32([[0, 0, 1]])

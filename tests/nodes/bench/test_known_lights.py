@@ -9,9 +9,9 @@ import pytest
 
 from graphface.nodes.bench.known_light_cases import Case, head_cases
 from graphface.nodes.bench.known_lights import UNCHANGED, VARIANTS, Variant, compared, relight_known
-from graphface.nodes.image import image_from_array, read_image
-from graphface.nodes.render.scene import DirectionalLight, Scene
-from graphface.nodes.types import Image
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.types import DirectionalLight, Image, Scene
+from graphface.nodes.types.image import image_from_array
 
 
 class TestVariant:

@@ -12,7 +12,7 @@ from graphface.nodes.bench.transfer_criteria import (
     landmark_shift,
     seam,
 )
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.makeup.features import features
 from graphface.nodes.types import Landmarks
 

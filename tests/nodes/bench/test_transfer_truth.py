@@ -7,7 +7,7 @@ import pytest
 
 from graphface import UnreadableFile
 from graphface.nodes.bench.transfer_truth import makeup_truth, pairs_of, reinhard
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.types import Image
 
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from graphface.nodes.bench.heads import LIGHTS
-from graphface.nodes.image import read_image, write_picture
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
 
 RELIT = LIGHTS[1:]
 

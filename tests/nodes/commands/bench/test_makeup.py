@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 
 
 class TestBenchMakeup:

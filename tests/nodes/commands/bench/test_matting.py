@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 
 
 class TestBenchMatting:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphface.nodes.bench import scene_cost
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 
 
 class TestBenchScenes:

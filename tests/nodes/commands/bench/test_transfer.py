@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphface.nodes.image import read_image, write_picture
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
 
 
 class TestBenchTransfer:
