@@ -16,7 +16,7 @@ from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
 def multiband(
     base: Image, layer: Image, mask: Mask, landmarks: Landmarks, *, reach: Annotated[float, Field(gt=0, le=2)] = 0.25
 ) -> Image:
-    """Each band of a Laplacian pyramid is blended by the mask's Gaussian pyramid: broad bands softly, fine ones sharply.
+    """Blend each band of a Laplacian pyramid by the mask's Gaussian pyramid: broad bands softly, fine ones sharply.
 
     Args:
         reach: width over which the broadest band is blended, in inter-ocular distances. Where the mask is 0 that far

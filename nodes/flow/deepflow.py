@@ -9,7 +9,7 @@ from graphface.nodes.flow.refine import GreyPicture, flow_operator
 
 @flow_operator("flow.deepflow", resolution=60)
 def deepflow(source: GreyPicture, target: GreyPicture) -> Any:
-    """Weinzaepfel, Revaud, Harchaoui, Schmid, DeepFlow: Large displacement optical flow with deep matching, ICCV 2013."""
+    """Weinzaepfel, Revaud, Harchaoui, Schmid, DeepFlow: Large Displacement Optical Flow with Deep Matching, 2013."""
     import cv2
 
     return cv2.optflow.createOptFlow_DeepFlow().calc(source, target, None)  # type: ignore[call-overload]
