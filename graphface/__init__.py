@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.graph.graph import Graph, load
     from graphface.registry import Pack, Registry
+    from graphface.values.parts import register_parts
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -67,6 +68,7 @@ _HOMES = {
     "UnwritableFile": "errors",
     "UsageError": "errors",
     "load": "graph.graph",
+    "register_parts": "values.parts",
     "warn": "fallback",
 }
 
@@ -95,6 +97,7 @@ __all__ = [
     "UsageError",
     "load",
     "node",
+    "register_parts",
     "warn",
 ]
 

@@ -11,13 +11,14 @@ import json
 import math
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphface.document.located import Place, scalar
 from graphface.graph.inputs import reader_of
+from graphface.values.parts import NUMBERED, rule_of
 
 if TYPE_CHECKING:
     from graphface.graph.graph import Graph
@@ -125,10 +126,11 @@ def _value(value: Any) -> str:
     """A value as flow YAML; what YAML cannot say becomes the nearest that it can: a tuple a list, a path a text."""
     if isinstance(value, Enum):
         return _value(value.value)
-    if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{_quoted(str(key))}: {_value(item)}' for key, item in value.items())}}}"
-    if isinstance(value, list | tuple | set | frozenset):
+    rule = rule_of(type(value))
+    if rule is NUMBERED:
         return f"[{', '.join(_value(item) for item in value)}]"
+    if rule is not None:
+        return f"{{{', '.join(f'{_quoted(str(label))}: {_value(part)}' for label, part in rule.items(value))}}}"
     if isinstance(value, float) and not math.isfinite(value):
         return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
     if value is None or isinstance(value, bool | int | float):

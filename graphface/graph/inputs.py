@@ -7,21 +7,18 @@ write to them, a value that shares their memory is never memoized (`Bound.borrow
 
 from __future__ import annotations
 
-import copy
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from graphface.document.located import scalar
 from graphface.errors import InputError, UnreadableFile, nearest_names
 from graphface.graph.wiring import GraphInput
 from graphface.values.digest import digest_file, digest_value
-from graphface.values.frozen import arrays_in, buffer_of, freeze
+from graphface.values.frozen import arrays_in, buffer_of, freeze, read_only
 from graphface.values.port_types import ArrayType, Atom, PortType
 
 Reader = Callable[[Path], Any]
@@ -124,7 +121,7 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
 
     def load() -> Any:
         try:
-            return _read_only(declared.coerce(value))
+            return read_only(declared.coerce(value))
         except (ValueError, TypeError) as error:
             raise InputError(entry.name, str(error)) from None
 
@@ -137,26 +134,6 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
     owned = (buffer_of(a) for _, a in arrays_in(value))
     borrowed = frozenset(id(a) for a in owned if a.flags.writeable or a.base is not None)
     return Bound(entry.name, digest, type(value).__name__, load, borrowed)
-
-
-def _read_only(value: Any) -> Any:
-    """The same value over read-only views; the caller's own arrays, at any depth, keep their flags."""
-    if next(arrays_in(value), None) is None:
-        return value
-    if isinstance(value, np.ndarray):
-        view = value.view()
-        view.flags.writeable = False
-        return view
-    if isinstance(value, Mapping):
-        return {key: _read_only(item) for key, item in value.items()}
-    if isinstance(value, tuple) and hasattr(value, "_make"):
-        return value._make(_read_only(item) for item in value)
-    if isinstance(value, list | tuple):
-        return type(value)(_read_only(item) for item in value)
-    viewing = copy.copy(value)
-    for part in fields(value):
-        object.__setattr__(viewing, part.name, _read_only(getattr(value, part.name)))
-    return viewing
 
 
 def _from_text(value: Any, declared: PortType) -> Any:
