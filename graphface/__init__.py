@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.graph.graph import Graph, load
     from graphface.registry import Pack, Registry
+    from graphface.values.files import Files
     from graphface.values.parts import register_parts
     from graphface.values.port_types import ArrayType, Lazy
 
@@ -51,6 +52,7 @@ _HOMES = {
     "Asset": "assets.asset",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
+    "Files": "values.files",
     "Graph": "graph.graph",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
@@ -78,6 +80,7 @@ __all__ = [
     "Cosmetic",
     "DocumentError",
     "Evaluator",
+    "Files",
     "Graph",
     "GraphfaceError",
     "GraphfaceWarning",

@@ -5,6 +5,9 @@ Laplacian is not loaded to turn a photo grey. An installed distribution offers i
 `graphface.nodes` entry-point group:
 
     pack = Pack("mine", operators={"blur": "mine.blur"}, types={"Blurred": "mine.blur:Blurred"})
+
+How a type's values are read from and written to files is no affair of the type's (`graphface.values.files`): a pack
+names it in `files`, a plug-in file in a constant `FILES = {Blurred: Files(...)}`.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ import importlib.util
 import os.path
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -22,7 +25,8 @@ from typing import TYPE_CHECKING, Any
 
 from graphface.errors import PluginError, UnknownOperator, UnknownType
 from graphface.node import Operator, operator_of
-from graphface.values.port_types import ANY, Atom, ListOf, PortType, port_type
+from graphface.values.files import Files
+from graphface.values.port_types import ANY, ArrayType, Atom, ListOf, PortType, port_type
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
@@ -41,14 +45,17 @@ class Pack:
         operators: operator family ("intrinsic" for `intrinsic.*`) to the modules that declare it, separated by spaces
             where a family is spread over several.
         types: name used in graph files to "module:attribute".
+        files: name in `types`, which must also be that of the class, of the array type or of the attribute, to
+            "module:attribute" of a `Files`.
         graphs: the package whose folder holds shipped graph files.
-        assets: "module:attribute" of tuples of `graphface.assets.asset.Asset`, the files that its operators fetch, separated
-            by spaces.
+        assets: "module:attribute" of tuples of `graphface.assets.asset.Asset`, the files that its operators fetch,
+            separated by spaces.
     """
 
     name: str
     operators: Mapping[str, str]
     types: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
     graphs: str = ""
     assets: str = ""
 
@@ -60,6 +67,8 @@ class Registry:
         self._packs = packs if packs is not None else []
         self._added: dict[str, Operator] = {}
         self._loaded: dict[str, dict[str, Operator]] = {}
+        self._added_files: dict[Atom, Files] = {}
+        self._files: dict[Atom, Files | None] = {}
 
     def add(self, function: object) -> None:
         """Register one `@node` function (a notebook's own, say); a later one of the same name replaces it."""
@@ -68,17 +77,25 @@ class Registry:
             raise TypeError(f"{function!r} is not declared with @node")
         self._added[operator.name] = operator
 
+    def add_files(self, kind: Any, files: Files) -> None:
+        """Say how values of a class, or of an array type, are read from and written to files."""
+        self._added_files |= dict.fromkeys(port_type(kind).alternatives, files)
+        self._files.clear()
+
     def add_file(self, path: Path) -> list[str]:
-        """Execute a plug-in file and register every operator it declares; their names.
+        """Execute a plug-in file and register every operator and the `FILES` it declares; the operators' names.
 
         Raises:
             PluginError: the file is missing, fails to import, or declares no operator.
         """
-        functions = [f for f in vars(_import_file(path)).values() if operator_of(f) is not None]
+        module = _import_file(path)
+        functions = [f for f in vars(module).values() if operator_of(f) is not None]
         if not functions:
             raise PluginError(f"{path}: declares no operator; put @node on a function", path=path)
         for function in functions:
             self.add(function)
+        for kind, files in getattr(module, "FILES", {}).items():
+            self.add_files(kind, files)
         return sorted({operator.name for f in functions if (operator := operator_of(f)) is not None})
 
     def operator(self, name: str) -> Operator:
@@ -135,6 +152,7 @@ class Registry:
         other = Registry(self._packs)
         other._added = dict(self._added)
         other._loaded = self._loaded
+        other._added_files = dict(self._added_files)
         return other
 
     def graph_packages(self) -> list[str]:
@@ -149,9 +167,36 @@ class Registry:
                 found += _attribute(where)
         return found
 
-    def type_classes(self) -> list[Any]:
-        """What the packs' type names stand for."""
-        return [_attribute(where) for pack in self._packs for where in pack.types.values()]
+    def files(self, kind: Atom | PortType) -> Files | None:
+        """How values of a type are read from and written to files; of a port, those of the first alternative with any.
+
+        What has no files of its own is written as the nearest base class is, or the parent of an array type, and is not
+        read: that would give a value of the base class.
+        """
+        if isinstance(kind, PortType):
+            return next((files for atom in kind.alternatives if (files := self.files(atom)) is not None), None)
+        if kind not in self._files:
+            own = ((base, self._own_files(base)) for base in _lineage(kind))
+            base, found = next(((base, files) for base, files in own if files is not None), (kind, None))
+            self._files[kind] = found if found is None or base is kind else replace(found, read=None)
+        return self._files[kind]
+
+    def all_files(self) -> list[Files]:
+        """The files of every type that has any."""
+        named = (_attribute(where) for pack in self._packs for where in pack.files.values())
+        return [*self._added_files.values(), *named]
+
+    def _own_files(self, atom: Atom) -> Files | None:
+        """The files of just this type. Only a type of the same name is imported to see whether it is this one."""
+        if atom in self._added_files:
+            return self._added_files[atom]
+        own_name = atom.name if isinstance(atom, ArrayType) else getattr(atom, "__name__", "")
+        for pack in self._packs:
+            for name, where in pack.files.items():
+                kind = pack.types.get(name, "")
+                if own_name in (name, kind.partition(":")[2]) and atom in port_type(_attribute(kind)).alternatives:
+                    return _attribute(where)  # type: ignore[no-any-return]
+        return None
 
     def _named_type(self, name: str) -> PortType:
         if name == "Any":
@@ -174,6 +219,17 @@ class Registry:
             declared = (operator_of(f) for m in modules for f in vars(importlib.import_module(m)).values())
             self._loaded[family] = {op.name: op for op in declared if op is not None and op.family == family}
         return self._loaded[family]
+
+
+def _lineage(atom: Atom) -> Iterator[Atom]:
+    """A type and what it is a kind of, nearest first."""
+    if isinstance(atom, type):
+        yield from atom.__mro__
+        return
+    yield atom
+    while isinstance(atom, ArrayType) and atom.parent is not None:
+        atom = atom.parent
+        yield atom
 
 
 def _alternatives(text: str) -> list[str]:

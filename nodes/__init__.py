@@ -6,6 +6,7 @@
 from graphface import Pack
 
 _TYPES = "graphface.nodes.types"
+_FILES = "graphface.nodes.io.files"
 _INTRINSIC = ("intensity", "retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 _MASKS = "graphface.nodes.masks"
 _LABELS = ("face", "geometric", "features", "cue", "hair", "classify", "network", "override")
@@ -102,5 +103,26 @@ pack = Pack(
         "Scene": "graphface.nodes.render.scene:Scene",
         "Shadows": "graphface.nodes.render.visibility:Shadows",
         "Surroundings": "graphface.nodes.render.spread:Surroundings",
+    },
+    files={
+        "Albedo": f"{_FILES}:ALBEDO",
+        "Depth": f"{_FILES}:DEPTH",
+        "Detail": f"{_FILES}:DETAIL",
+        "Environment": f"{_FILES}:ENVIRONMENT",
+        "Gain": f"{_FILES}:GAIN",
+        "Image": f"{_FILES}:IMAGE",
+        "Judgements": f"{_FILES}:JUDGEMENTS",
+        "LabelWeights": f"{_FILES}:LABEL_WEIGHTS",
+        "Landmarks": f"{_FILES}:LANDMARKS",
+        "Mask": f"{_FILES}:MASK",
+        "Mesh": f"{_FILES}:MESH",
+        "MorphableModel": f"{_FILES}:MODEL",
+        "Normals": f"{_FILES}:NORMALS",
+        "Pins": f"{_FILES}:PINS",
+        "Representation": f"{_FILES}:REPRESENTATION",
+        "Scene": f"{_FILES}:SCENE",
+        "Shading": f"{_FILES}:SHADING",
+        "Texture": f"{_FILES}:TEXTURE",
+        "TexturedMesh": f"{_FILES}:TEXTURED_MESH",
     },
 )

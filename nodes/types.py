@@ -28,19 +28,6 @@ PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff")
 """The suffixes that pictures are written as."""
 
 
-def _write_picture(pixels: Any, path: Path, text: Mapping[str, str] | None) -> None:
-    from graphface.nodes.image import write_picture
-
-    write_picture(pixels, path, text=text)
-
-
-def _mask_from_file(path: Path) -> FloatArray:
-    from graphface.nodes.colour import channel_mean
-    from graphface.nodes.image import read_image
-
-    return channel_mean(read_image(path).pixels)
-
-
 def _as_bytes(unit: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
     pixels = np.rint(np.clip(unit, 0, 1) * 255).astype(np.uint8)
     return pixels if pixels.ndim == 3 else np.repeat(pixels[..., None], 3, axis=2)
@@ -81,15 +68,12 @@ def _picture_depth(depth: FloatArray) -> NDArray[np.uint8]:
 
 
 def _map(name: str, shape: str, doc: str, picture: Any, **more: Any) -> ArrayType:
-    def to_file(value: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
-        _write_picture(picture(value), path, text)
-
-    return ArrayType(name, shape, doc=doc, picture=picture, to_file=to_file, suffixes=PICTURES, **more)
+    return ArrayType(name, shape, doc=doc, picture=picture, **more)
 
 
 Mask = Annotated[
     FloatArray,
-    _map("Mask", "H W", "Coverage, 0 outside to 1 inside.", _picture_unit, low=0, high=1, from_file=_mask_from_file),
+    _map("Mask", "H W", "Coverage, 0 outside to 1 inside.", _picture_unit, low=0, high=1),
 ]
 Normals = Annotated[
     FloatArray,

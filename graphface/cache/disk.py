@@ -20,10 +20,10 @@ from graphface.cache.budget import Room, keep_until
 from graphface.cache.entry import DamagedEntry, UnknownChecksum, header_length, pack, read_header, unpack
 from graphface.cache.folder import Folder
 from graphface.cache.memory import MISSING
-from graphface.cache.whole_file import NO_FOLLOW, date, delete, read, write
 from graphface.errors import UsageError
 from graphface.fallback import warn
 from graphface.values.codec import CodecError, decode, encode
+from graphface.values.whole_file import NO_FOLLOW, date, delete, read, write
 
 
 @dataclass(frozen=True)

@@ -85,7 +85,7 @@ def run(
     targets = loaded.targets(files)
     bound = loaded.bind(given)
     for name, path in files.items():
-        check_output(path, loaded.type_of(targets[name]))
+        check_output(path, loaded.type_of(targets[name]), loaded.registry.files)
     _check_kept(files.values(), given.values())
     if trace is not None:
         check_folder(trace)
@@ -106,7 +106,8 @@ def run(
             if trace is not None:
                 tracer.write(trace, loaded, bound)
     for name, path in files.items():
-        write_output(result[name], loaded.type_of(targets[name]), path, text=provenance(loaded))
+        kind = loaded.type_of(targets[name])
+        write_output(result[name], kind, path, loaded.registry.files, text=provenance(loaded))
     print_warnings([*result.warnings, *said])
     if times:
         print_times(result.records)
@@ -140,7 +141,7 @@ def run_map(
     first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
     targets = graph.targets(first)
     for name, path in first.items():
-        check_output(path, graph.type_of(targets[name]))
+        check_output(path, graph.type_of(targets[name]), graph.registry.files)
     said: list[str] = []
     failed, records, total = [], [], 0
     with ProgressBar() as bar:
@@ -158,7 +159,8 @@ def run_map(
                 continue
             for name, path in output_files(graph, output, made.inputs).items():
                 check_folder(path)
-                write_output(made.result[name], graph.type_of(targets[name]), path, text=provenance(graph))
+                kind = graph.type_of(targets[name])
+                write_output(made.result[name], kind, path, graph.registry.files, text=provenance(graph))
             records += made.result.records
             said += [w for w in made.result.warnings if w not in said]
     print_warnings(said)

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphface.document.located import Place, scalar
-from graphface.graph.inputs import reader_of
 from graphface.values.parts import NUMBERED, rule_of
 
 if TYPE_CHECKING:
@@ -99,7 +98,8 @@ def _default(graph: Graph, entry: GraphInput) -> Any:
     assert entry.default is not None
     value, place, top = entry.default.value, entry.default.place, graph.composition.path
     named_in = place.source.path if place is not None else None
-    if not isinstance(value, str) or reader_of(entry.type) is None or named_in is None or top is None:
+    files = graph.registry.files(entry.type)
+    if not isinstance(value, str) or files is None or files.read is None or named_in is None or top is None:
         return value
     file = (named_in.parent / value).resolve()
     if named_in.parent.resolve() == top.parent.resolve() or not file.is_file():

@@ -18,10 +18,9 @@ from graphface.document.located import scalar
 from graphface.errors import InputError, UnreadableFile, nearest_names
 from graphface.graph.wiring import GraphInput
 from graphface.values.digest import digest_file, digest_value
+from graphface.values.files import FilesOf, Reader
 from graphface.values.frozen import arrays_in, buffer_of, freeze, read_only
-from graphface.values.port_types import ArrayType, Atom, PortType
-
-Reader = Callable[[Path], Any]
+from graphface.values.port_types import ArrayType, PortType
 
 
 @dataclass(eq=False)
@@ -51,6 +50,7 @@ class Bound:
 def bind(
     inputs: Mapping[str, GraphInput],
     given: Mapping[str, Any],
+    files_of: FilesOf,
     *,
     roots: Sequence[Path] = (),
     stat_shortcut: bool = True,
@@ -59,6 +59,7 @@ def bind(
 
     Args:
         given: input name to a value, or to a path where the input's type can be read from a file.
+        files_of: how types are read from files.
         roots: folders in which relative paths are looked for: default files there only, given ones there at last.
         stat_shortcut: trust size and modification time of a file hashed before.
 
@@ -72,7 +73,7 @@ def bind(
                 name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs)
             )
     return {
-        name: _bind_one(entry, given, roots, stat_shortcut)
+        name: _bind_one(entry, given, files_of, roots, stat_shortcut)
         for name, entry in inputs.items()
         if _has_value(entry, given)
     }
@@ -82,18 +83,16 @@ def missing_inputs(inputs: Mapping[str, GraphInput], given: Mapping[str, Any]) -
     return [name for name, entry in inputs.items() if not _has_value(entry, given)]
 
 
-def reader_of(declared: PortType) -> Reader | None:
-    """How a value of this type is read from a file, if it can be."""
-    return next((r for a in declared.alternatives if (r := _atom_reader(a)) is not None), None)
-
-
 def _has_value(entry: GraphInput, given: Mapping[str, Any]) -> bool:
     return entry.name in given or entry.default is not None or entry.type.optional
 
 
-def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path], stat_shortcut: bool) -> Bound:
+def _bind_one(
+    entry: GraphInput, given: Mapping[str, Any], files_of: FilesOf, roots: Sequence[Path], stat_shortcut: bool
+) -> Bound:
     name, declared = entry.name, entry.type
-    reader = reader_of(declared)
+    files = files_of(declared)
+    reader = files.read if files is not None else None
     if name in given:
         value = given[name]
         if reader is not None and isinstance(value, str | Path):
@@ -164,12 +163,6 @@ def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:
         except (OSError, ValueError):  # a name that no file could have
             continue
     raise UnreadableFile(name, f"no such file beside the graph (default of input {entry.name!r}, {entry.place})")
-
-
-def _atom_reader(atom: Atom) -> Reader | None:
-    if isinstance(atom, ArrayType):
-        return atom.from_file
-    return getattr(atom, "from_file", None)
 
 
 def _coercible(declared: PortType) -> bool:

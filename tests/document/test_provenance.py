@@ -100,8 +100,10 @@ class TestCarried:
     def test_maps(self, tmp_path: Path, declared: Any, shape: tuple[int, ...]) -> None:
         """Drawings of masks, normals and the like hold it too."""
         path = tmp_path / "map.png"
-        write_output(np.zeros(shape, np.float32), port_type(declared), path, text={KEY: "graphface: 1\n"})
-        assert read_provenance(path, default_registry()) == "graphface: 1\n"
+        registry = default_registry()
+        value, kind = np.zeros(shape, np.float32), port_type(declared)
+        write_output(value, kind, path, registry.files, text={KEY: "graphface: 1\n"})
+        assert read_provenance(path, registry) == "graphface: 1\n"
 
     def test_any_characters(self, tmp_path: Path) -> None:
         """Texts in any script come back."""

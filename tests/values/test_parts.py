@@ -272,7 +272,7 @@ class TestThirdParty:
 
     def test_written(self, tmp_path: Path) -> None:
         """.npz holds its arrays."""
-        write_output([Spline(np.zeros(2), Pair(np.ones(3)))], ANY, tmp_path / "a.npz")
+        write_output([Spline(np.zeros(2), Pair(np.ones(3)))], ANY, tmp_path / "a.npz", Registry().files)
         with np.load(tmp_path / "a.npz") as stored:
             assert set(stored) == {"[0].knots", "[0].pair.one"}
 
