@@ -14,12 +14,13 @@ import importlib
 import os.path
 from typing import TYPE_CHECKING, Any
 
-from graphface.node import Cosmetic, Needs, node
+from graphface.node import Cosmetic, Formerly, Needs, node
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
     from graphface.errors import (
+        DeclarationError,
         DocumentError,
         GraphfaceError,
         InputError,
@@ -32,9 +33,10 @@ if TYPE_CHECKING:
     )
     from graphface.evaluate.evaluator import Evaluator, Result
     from graphface.evaluate.observe import Observer
+    from graphface.facade import Graph, load
     from graphface.fallback import GraphfaceWarning, warn
-    from graphface.graph.graph import Graph, load
-    from graphface.registry import Pack, Registry
+    from graphface.packs import Pack
+    from graphface.registry import Registry
     from graphface.values.files import Files
     from graphface.values.parts import register_parts
     from graphface.values.port_types import ArrayType, Lazy
@@ -50,10 +52,11 @@ if not os.path.isdir(os.path.join(__path__[0], "nodes")) and os.path.isdir(os.pa
 _HOMES = {
     "ArrayType": "values.port_types",
     "Asset": "assets.asset",
+    "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
     "Files": "values.files",
-    "Graph": "graph.graph",
+    "Graph": "facade",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
     "InputError": "errors",
@@ -61,7 +64,7 @@ _HOMES = {
     "MemoryTier": "cache.memory",
     "NodeError": "errors",
     "Observer": "evaluate.observe",
-    "Pack": "registry",
+    "Pack": "packs",
     "Registry": "registry",
     "Result": "evaluate.evaluator",
     "RunError": "errors",
@@ -69,7 +72,7 @@ _HOMES = {
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
-    "load": "graph.graph",
+    "load": "facade",
     "register_parts": "values.parts",
     "warn": "fallback",
 }
@@ -78,9 +81,11 @@ __all__ = [
     "ArrayType",
     "Asset",
     "Cosmetic",
+    "DeclarationError",
     "DocumentError",
     "Evaluator",
     "Files",
+    "Formerly",
     "Graph",
     "GraphfaceError",
     "GraphfaceWarning",

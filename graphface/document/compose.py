@@ -28,10 +28,10 @@ from graphface.document.extending import with_bases
 from graphface.document.flags import flag_overlays, flag_place
 from graphface.document.flat import Composition, FlatNode, FlatWire
 from graphface.document.graph_files import GRAPH_SUFFIXES, GraphFiles
-from graphface.document.located import Place
 from graphface.document.overlays import Overlay, Rank, chosen_overlays, copied, inner_parts, lay_over, own_part
 from graphface.document.references import MAX_NESTING, References, Scope, Target
 from graphface.errors import DocumentError, Problem, nearest_names
+from graphface.place import Place
 
 MAX_NODES = 2_000_000
 
@@ -229,11 +229,11 @@ class _Composer:
                 if flat is None or node.removed:
                     continue
                 for port, wire in node.wires.items():
-                    if wire.names is not None:
-                        found = references.wire(scope, wire)
-                        flat.wires[port] = (
-                            FlatWire(*found, wire.place) if found else FlatWire((), False, wire.place, True)
-                        )
+                    if wire.names is None:
+                        flat.wires[port] = FlatWire((), False, wire.place, unplugged=True)
+                        continue
+                    found = references.wire(scope, wire)
+                    flat.wires[port] = FlatWire(*found, wire.place) if found else FlatWire((), False, wire.place, True)
         outputs = {}
         for name, setting in top.document.outputs.items():
             found = references.resolve(top, setting.value, setting.place)

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from graphface.document.document import Document, read_document
-from graphface.document.located import Place
 from graphface.errors import DocumentError, Problem, UnreadableFile, did_you_mean, nearest_names
+from graphface.place import Place
 
 GRAPH_SUFFIXES = (".yaml", ".yml")
 

@@ -1,8 +1,8 @@
 """What a caller gives for a graph's inputs: files, arrays or values, known by content and loaded only when needed.
 
 A bound input has its digest at once and its value when somebody asks for it, so that a fully memoized run decodes no
-picture. Arrays of the caller are not copied: they are passed on as read-only views, and since the caller may still
-write to them, a value that shares their memory is never memoized (`Bound.borrowed`).
+picture. The value is always what the digest was taken of, or results would be kept under the wrong keys: arrays that
+their owner may still write to are copied, and a file that was written to between hashing and reading is refused.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from graphface.document.located import scalar
 from graphface.errors import InputError, UnreadableFile, nearest_names
-from graphface.graph.wiring import GraphInput
+from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value
 from graphface.values.files import FilesOf, Reader
-from graphface.values.frozen import arrays_in, buffer_of, freeze, read_only
+from graphface.values.frozen import buffer_of, freeze, with_arrays
 from graphface.values.port_types import ArrayType, PortType
 
 
@@ -31,7 +33,6 @@ class Bound:
     digest: bytes
     origin: str
     load: Callable[[], Any] = field(repr=False)
-    borrowed: frozenset[int] = frozenset()
     is_file: bool = False
 
     @cached_property
@@ -42,8 +43,7 @@ class Bound:
             UnreadableFile, InputError: the file or object is not what the input takes.
         """
         value = self.load()
-        if not self.borrowed:
-            freeze(value)
+        freeze(value)
         return value
 
 
@@ -58,7 +58,8 @@ def bind(
     """Bind every input of a graph to what was given, or to its default.
 
     Args:
-        given: input name to a value, or to a path where the input's type can be read from a file.
+        given: input name to a value, or to a path where the input's type can be read from a file, or to what an earlier
+            call made of one.
         files_of: how types are read from files.
         roots: folders in which relative paths are looked for: default files there only, given ones there at last.
         stat_shortcut: trust size and modification time of a file hashed before.
@@ -95,6 +96,8 @@ def _bind_one(
     reader = files.read if files is not None else None
     if name in given:
         value = given[name]
+        if isinstance(value, Bound):
+            return value
         if reader is not None and isinstance(value, str | Path):
             return _bind_file(entry, _given_file(value, roots), reader, stat_shortcut)
         return _bind_object(entry, _from_text(value, declared))
@@ -112,27 +115,46 @@ def _bind_file(entry: GraphInput, path: Path, reader: Reader, stat_shortcut: boo
     except UnreadableFile as error:
         raise UnreadableFile(path, f"{error.reason} (input {entry.name!r})") from None
     digest = digest_value(("file", str(entry.type), _code_of(reader), content))
-    return Bound(entry.name, digest, str(path), lambda: reader(path), is_file=True)
+
+    def load() -> Any:
+        value = reader(path)
+        if digest_file(path, stat_shortcut=stat_shortcut) != content:
+            raise UnreadableFile(path, f"was changed while it was in use (input {entry.name!r}); run again")
+        return value
+
+    return Bound(entry.name, digest, str(path), load, is_file=True)
 
 
 def _bind_object(entry: GraphInput, value: Any) -> Bound:
     declared = entry.type
-
-    def load() -> Any:
-        try:
-            return read_only(declared.coerce(value))
-        except (ValueError, TypeError) as error:
-            raise InputError(entry.name, str(error)) from None
-
     if value is not None and declared.problem(value) is not None and not _coercible(declared):
         raise InputError(entry.name, declared.problem(value) or "")
     try:
-        digest = digest_value(("value", str(declared), value))
+        own = with_arrays(value, _own)
+        digest = digest_value(("value", str(declared), own))
     except TypeError as error:
         raise InputError(entry.name, str(error)) from None
-    owned = (buffer_of(a) for _, a in arrays_in(value))
-    borrowed = frozenset(id(a) for a in owned if a.flags.writeable or a.base is not None)
-    return Bound(entry.name, digest, type(value).__name__, load, borrowed)
+
+    def load() -> Any:
+        try:
+            return declared.coerce(own)
+        except (ValueError, TypeError) as error:
+            raise InputError(entry.name, str(error)) from None
+
+    return Bound(entry.name, digest, type(value).__name__, load)
+
+
+def _own(array: np.ndarray) -> np.ndarray:
+    """The same array where nobody can write to it, else a copy."""
+    return array if _settled(array) else array.copy()
+
+
+def _settled(array: np.ndarray) -> bool:
+    """Whether nobody can write to an array: neither it nor what owns its memory is writable."""
+    owner = buffer_of(array)
+    return not (array.flags.writeable or owner.flags.writeable) and (
+        owner.base is None or isinstance(owner.base, bytes)
+    )
 
 
 def _from_text(value: Any, declared: PortType) -> Any:

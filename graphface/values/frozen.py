@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import weakref
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, MutableMapping
 from itertools import islice
 from typing import Any
 
@@ -54,17 +54,6 @@ def with_arrays(value: Any, change: Callable[[np.ndarray], np.ndarray]) -> Any:
     return value if same else rule.like(value, changed)
 
 
-def read_only(value: Any) -> Any:
-    """The same value over read-only views; its own arrays, at any depth, keep their flags."""
-
-    def viewed(array: np.ndarray) -> np.ndarray:
-        view = array.view()
-        view.flags.writeable = False
-        return view
-
-    return with_arrays(value, viewed)
-
-
 def freeze(value: Any, lent: frozenset[int] | set[int] = frozenset()) -> tuple[np.ndarray, ...]:
     """Make every array of a value read-only; the buffers they live in, each once.
 
@@ -90,7 +79,7 @@ def buffer_of(array: np.ndarray) -> np.ndarray:
     return array
 
 
-def first_non_finite(value: Any, known: dict[int, weakref.ref[Any]]) -> str | None:
+def first_non_finite(value: Any, known: MutableMapping[int, weakref.ref[Any]]) -> str | None:
     """Where a value holds NaN or infinity: how many, and the first index; None where it holds none.
 
     Args:

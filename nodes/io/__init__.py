@@ -1,1 +1,1 @@
-"""Files: what is read from them and written to them, and by whom."""
+"""Files: pictures and the text in them, panoramas, meshes, landmarks, scenes, pins, judgements, representations."""

@@ -18,26 +18,26 @@ MESHES = (".obj", ".ply", ".glb", ".gltf")
 
 
 def _read_image(path: Path) -> Any:
-    from graphface.nodes.image import read_image
+    from graphface.nodes.io.image_read import read_image
 
     return read_image(path)
 
 
 def _write_image(image: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
-    from graphface.nodes.image import write_image
+    from graphface.nodes.io.image_write import write_image
 
     write_image(image, path, text=text)
 
 
 def _text_in_picture(path: Path) -> dict[str, str]:
-    from graphface.nodes.image import read_text
+    from graphface.nodes.io.image_text import read_text
 
     return read_text(path)
 
 
 def _read_mask(path: Path) -> Any:
-    from graphface.nodes.colour import channel_mean
-    from graphface.nodes.image import read_image
+    from graphface.nodes.color import channel_mean
+    from graphface.nodes.io.image_read import read_image
 
     return channel_mean(read_image(path).pixels)
 
@@ -47,7 +47,7 @@ def _drawn(name: str) -> Callable[..., None]:
 
     def write(value: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
         from graphface.nodes import types
-        from graphface.nodes.image import write_picture
+        from graphface.nodes.io.image_write import write_picture
         from graphface.values.port_types import array_of
 
         kind = array_of(getattr(types, name))
@@ -63,25 +63,25 @@ def _write_texture(texture: Any, path: Path) -> None:
 
 
 def _read_landmarks(path: Path) -> Any:
-    from graphface.nodes.landmarks.files import read_landmarks
+    from graphface.nodes.io.landmarks import read_landmarks
 
     return read_landmarks(path)
 
 
 def _write_landmarks(landmarks: Any, path: Path) -> None:
-    from graphface.nodes.landmarks.files import write_landmarks
+    from graphface.nodes.io.landmarks import write_landmarks
 
     write_landmarks(landmarks, path)
 
 
 def _write_mesh(mesh: Any, path: Path) -> None:
-    from graphface.nodes.projection.export import write_mesh
+    from graphface.nodes.io.mesh import write_mesh
 
     write_mesh(mesh, path)
 
 
 def _write_textured(textured: Any, path: Path) -> None:
-    from graphface.nodes.projection.export import write_mesh
+    from graphface.nodes.io.mesh import write_mesh
 
     write_mesh(textured.mesh, path, textured.texture)
 
@@ -105,45 +105,45 @@ def _read_label_weights(path: Path) -> Any:
 
 
 def _read_environment(path: Path) -> Any:
-    from graphface.nodes.envmap import Environment
+    from graphface.nodes.io.panorama import read_panorama
 
-    return Environment.from_file(path)
+    return read_panorama(path)
 
 
 def _write_environment(environment: Any, path: Path) -> None:
-    from graphface.nodes.envmap import Environment
+    from graphface.nodes.io.panorama import write_panorama
 
-    Environment.to_file(environment, path)
+    write_panorama(environment, path)
 
 
 def _read_scene(path: Path) -> Any:
-    from graphface.nodes.render.scene import Scene
+    from graphface.nodes.types import Scene
 
     return Scene.from_file(path)
 
 
 def _read_pins(path: Path) -> Any:
-    from graphface.nodes.warp.correspondence import Pins
+    from graphface.nodes.io.pins import read_pins
 
-    return Pins.from_file(path)
+    return read_pins(path)
 
 
 def _read_judgements(path: Path) -> Any:
-    from graphface.nodes.metrics.judgements import Judgements
+    from graphface.nodes.io.judgements import read_judgements
 
-    return Judgements.from_file(path)
+    return read_judgements(path)
 
 
 def _read_representation(path: Path) -> Any:
-    from graphface.nodes.representation import Representation
+    from graphface.nodes.io.representation import read_representation
 
-    return Representation.from_file(path)
+    return read_representation(path)
 
 
 def _write_representation(representation: Any, path: Path) -> None:
-    from graphface.nodes.representation import Representation
+    from graphface.nodes.io.representation import write_representation
 
-    Representation.to_file(representation, path)
+    write_representation(representation, path)
 
 
 IMAGE = Files(_read_image, _write_image, PICTURES, _text_in_picture)

@@ -1,0 +1,85 @@
+"""Arrays whose meaning stands in their type: masks, normals, depth, albedo, shading, detail; float32 all of them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface import ArrayType
+from graphface.nodes.types.pictures import (
+    picture_albedo,
+    picture_depth,
+    picture_gain,
+    picture_normals,
+    picture_signed,
+    picture_unit,
+)
+
+FloatArray = NDArray[np.float32]
+
+
+Encoding = Literal["srgb", "linear"]
+
+
+Mask = Annotated[
+    FloatArray,
+    ArrayType("Mask", "H W", doc="Coverage, 0 outside to 1 inside.", picture=picture_unit, low=0, high=1),
+]
+
+
+Normals = Annotated[
+    FloatArray,
+    ArrayType(
+        "Normals",
+        "H W 3",
+        doc="Unit normals in the camera frame; (0, 0, 0): no surface.",
+        picture=picture_normals,
+        low=-1,
+        high=1,
+    ),
+]
+
+
+Depth = Annotated[
+    FloatArray,
+    ArrayType(
+        "Depth",
+        "H W",
+        doc="z in the camera frame, pixels, larger is nearer; 0 where there is no surface.",
+        picture=picture_depth,
+    ),
+]
+
+
+Albedo = Annotated[
+    FloatArray, ArrayType("Albedo", "H W 3", doc="Reflectance: color over shading.", picture=picture_albedo, low=0)
+]
+
+
+Shading = Annotated[
+    FloatArray, ArrayType("Shading", "...", doc="Irradiance, H x W or H x W x 3.", picture=picture_unit, low=0)
+]
+
+
+Detail = Annotated[
+    FloatArray, ArrayType("Detail", "H W 3", doc="What rendering leaves over, signed.", picture=picture_signed)
+]
+
+
+Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; zero: none.")]
+
+
+Gain = Annotated[
+    FloatArray,
+    ArrayType("Gain", "H W 3", doc="What rendering falls short of, as a factor.", picture=picture_gain, low=0),
+]
+
+
+FaceCoordinates = Annotated[
+    FloatArray, ArrayType("FaceCoordinates", "H W 2", low=0, high=1, doc="Point on the face (u, v); v up; -1 off it.")
+]
+
+
+Visibility = Annotated[FloatArray, ArrayType("Visibility", "V", low=0, high=1, doc="How far each vertex is seen.")]
