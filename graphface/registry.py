@@ -16,7 +16,7 @@ from graphface.fallback import warn
 from graphface.node import Operator, operator_of
 from graphface.packs import Pack, files_in, import_failure, import_file, installed_packs, operators_in, types_in
 from graphface.values.files import Files
-from graphface.values.port_types import ANY, ArrayType, Atom, ListOf, PortType, port_type
+from graphface.values.port_types import ANY, ArrayType, Atom, ListOf, PortType, lineage, port_type
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
@@ -163,7 +163,7 @@ class Registry:
         if isinstance(kind, PortType):
             return next((files for atom in kind.alternatives if (files := self.files(atom)) is not None), None)
         if kind not in self._files:
-            own = ((base, self._own_files(base)) for base in _lineage(kind))
+            own = ((base, self._own_files(base)) for base in lineage(kind))
             base, found = next(((base, files) for base, files in own if files is not None), (kind, None))
             self._files[kind] = found if found is None or base is kind else replace(found, read=None)
         return self._files[kind]
@@ -255,17 +255,6 @@ class Registry:
             f"no installed pack has operators of family {family!r}; "
             "name its file with --plugin FILE or install its pack"
         )
-
-
-def _lineage(atom: Atom) -> Iterator[Atom]:
-    """A type and what it is a kind of, nearest first."""
-    if isinstance(atom, type):
-        yield from atom.__mro__
-        return
-    yield atom
-    while isinstance(atom, ArrayType) and atom.parent is not None:
-        atom = atom.parent
-        yield atom
 
 
 def _alternatives(text: str) -> list[str]:

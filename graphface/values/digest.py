@@ -179,14 +179,8 @@ def _write(value: Any, emit: _Emit, strict: bool) -> None:
     elif isinstance(value, np.generic) and strict:
         _text(b"g", value.dtype.str, emit)
         _sized(b"b", value.tobytes(), emit)
-    elif isinstance(value, int | np.integer):
-        _write_int(int(value), emit)
-    elif isinstance(value, float | np.floating):
-        _write_float(float(value), emit, strict)
-    elif isinstance(value, complex):
-        emit(b"c")
-        _write_float(value.real, emit, strict)
-        _write_float(value.imag, emit, strict)
+    elif isinstance(value, int | np.integer | float | np.floating | complex):
+        _write_number(value, emit, strict)
     elif isinstance(value, bytes | bytearray | memoryview):
         _sized(b"b", bytes(value), emit)
     elif isinstance(value, np.ndarray):
@@ -220,14 +214,15 @@ def _write_parts(value: Any, rule: Rule, emit: _Emit, strict: bool) -> None:
         _write_pairs(rule.items(value), emit, strict)
 
 
-def _write_int(value: int, emit: _Emit) -> None:
-    # Python refuses to spell very large integers in decimal.
-    _text(b"i", str(value) if value.bit_length() < 512 else hex(value), emit)
-
-
-def _write_float(value: float, emit: _Emit, strict: bool) -> None:
-    if not strict and value.is_integer():
-        _write_int(int(value), emit)
+def _write_number(value: Any, emit: _Emit, strict: bool) -> None:
+    if isinstance(value, complex):
+        emit(b"c")
+        _write_number(value.real, emit, strict)
+        _write_number(value.imag, emit, strict)
+    elif isinstance(value, int | np.integer) or (not strict and float(value).is_integer()):
+        whole = int(value)
+        # Python refuses to spell very large integers in decimal.
+        _text(b"i", str(whole) if whole.bit_length() < 512 else hex(whole), emit)
     else:
         emit(b"f" + (b"nan-nan-" if value != value else struct.pack("<d", value)))
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import types
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, is_dataclass
 from typing import Annotated, Any, TypeVar
 
@@ -151,6 +151,17 @@ def port_type(annotation: Any) -> PortType:
     atoms: list[Atom] = []
     optional = _collect(annotation, atoms)
     return PortType(tuple(dict.fromkeys(atoms)), optional)
+
+
+def lineage(atom: Atom) -> Iterator[Atom]:
+    """A type and what it is a kind of, nearest first."""
+    if isinstance(atom, type):
+        yield from atom.__mro__
+        return
+    yield atom
+    while isinstance(atom, ArrayType) and atom.parent is not None:
+        atom = atom.parent
+        yield atom
 
 
 def is_lazy(annotation: Any) -> bool:
