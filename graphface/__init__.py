@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         UnwritableFile,
         UsageError,
     )
+    from graphface.document.typed_yaml import read_yaml, validated
     from graphface.evaluate.evaluator import Evaluator, Result
     from graphface.evaluate.observe import Observer
     from graphface.fallback import GraphfaceWarning, warn
@@ -67,6 +68,8 @@ _HOMES = {
     "UnwritableFile": "errors",
     "UsageError": "errors",
     "load": "graph.graph",
+    "read_yaml": "document.typed_yaml",
+    "validated": "document.typed_yaml",
     "warn": "fallback",
 }
 
@@ -95,6 +98,8 @@ __all__ = [
     "UsageError",
     "load",
     "node",
+    "read_yaml",
+    "validated",
     "warn",
 ]
 

@@ -44,6 +44,8 @@ class Pack:
         graphs: the package whose folder holds shipped graph files.
         assets: "module:attribute" of tuples of `graphface.assets.asset.Asset`, the files that its operators fetch, separated
             by spaces.
+        schemas: kind of file ("scene") to "module:attribute" of a pydantic model, or of a function that returns a JSON
+            Schema, for `graphface schema --kind`.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Pack:
     types: Mapping[str, str] = field(default_factory=dict)
     graphs: str = ""
     assets: str = ""
+    schemas: Mapping[str, str] = field(default_factory=dict)
 
 
 class Registry:
@@ -148,6 +151,10 @@ class Registry:
             for where in pack.assets.split():
                 found += _attribute(where)
         return found
+
+    def schemas(self) -> dict[str, Any]:
+        """Kinds of files to what describes them: pydantic models, and functions that return a JSON Schema."""
+        return {kind: _attribute(where) for pack in self._packs for kind, where in pack.schemas.items()}
 
     def type_classes(self) -> list[Any]:
         """What the packs' type names stand for."""

@@ -103,4 +103,5 @@ pack = Pack(
         "Shadows": "graphface.nodes.render.visibility:Shadows",
         "Surroundings": "graphface.nodes.render.spread:Surroundings",
     },
+    schemas={"scene": "graphface.nodes.render.scene:Scene"},
 )

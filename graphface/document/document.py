@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from graphface.document.located import Map, Place, Seq, Source, parse, plain
-from graphface.errors import Problem, UnreadableFile, nearest_names
+from graphface.document.located import Map, Place, Seq, Source, parse, plain, read_source
+from graphface.errors import Problem, nearest_names
 
 FORMAT = 1
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
@@ -30,7 +30,11 @@ _NODE = ("use", "in", "with", "doc")
 
 @dataclass(frozen=True)
 class Setting:
-    """A value and the place, or the flag, that set it."""
+    """A value and the place, or the flag, that set it.
+
+    The default of an input is kept with its positions (`Map`, `Seq`) for types whose mistakes are shown where they are;
+    `plain` leaves them away.
+    """
 
     value: Any
     place: Place | None
@@ -97,18 +101,10 @@ def read_document(path: Path) -> tuple[Document, list[Problem]]:
     """The document in a graph file, and what is wrong with it.
 
     Raises:
-        UnreadableFile: there is no such file, or it is not text.
+        UnreadableFile: there is no such file, it is not UTF-8 text, or it is too large.
         DocumentError: it is not YAML.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise UnreadableFile(
-            path, f"not UTF-8 text (byte {error.start} is 0x{error.object[error.start]:02x})"
-        ) from None
-    except (OSError, ValueError) as error:
-        raise UnreadableFile(path, getattr(error, "strerror", None) or str(error)) from None
-    return parse_document(Source(str(path), text, path), path)
+    return parse_document(read_source(path), path)
 
 
 def parse_document(source: Source, path: Path | None = None) -> tuple[Document, list[Problem]]:
@@ -192,7 +188,7 @@ def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
             yield from _unknown_keys(body, ("type", "default", "doc"), f"input {name!r}")
             entry = InputEntry(name, key_place, Setting(body["type"], body.value_place("type")))
             if "default" in body:
-                entry.default = Setting(plain(body["default"]), body.value_place("default"))
+                entry.default = Setting(body["default"], body.value_place("default"))
             entry.doc = str(body.get("doc") or "")
             document.inputs[name] = entry
         else:

@@ -17,7 +17,7 @@ from typing import Any
 
 import yaml
 
-from graphface.errors import DocumentError, Problem
+from graphface.errors import DocumentError, Problem, UnreadableFile
 
 MAX_DEPTH = 64
 MAX_ALIASED_VALUES = 100_000
@@ -125,6 +125,21 @@ class Seq(list[Any]):
     def put(self, value: Any, at: int) -> None:
         self.append(value)
         self._item_at.append(at)
+
+
+def read_source(path: Path) -> Source:
+    """The text of a YAML file.
+
+    Raises:
+        UnreadableFile: there is no such file, or it is not UTF-8 text.
+    """
+    try:
+        return Source(str(path), path.read_text(encoding="utf-8-sig"), path)
+    except UnicodeDecodeError as error:
+        byte = error.object[error.start]
+        raise UnreadableFile(path, f"not UTF-8 text (byte {error.start} is 0x{byte:02x})") from None
+    except (OSError, ValueError) as error:
+        raise UnreadableFile(path, getattr(error, "strerror", None) or str(error)) from None
 
 
 def parse(source: Source) -> tuple[Any, list[Problem]]:

@@ -1,7 +1,8 @@
 """What a caller gives for a graph's inputs: files, arrays or values, known by content and loaded only when needed.
 
 A bound input has its digest at once and its value when somebody asks for it, so that a fully memoized run decodes no
-picture. Arrays of the caller are not copied: they are passed on as read-only views, and since the caller may still
+picture. Only a pydantic model (a scene) is read at once: it is small, and a mistake in it is found before anything runs.
+Arrays of the caller are not copied: they are passed on as read-only views, and since the caller may still
 write to them, a value that shares their memory is never memoized (`Bound.borrowed`).
 """
 
@@ -17,8 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from graphface.document.located import scalar
-from graphface.errors import InputError, UnreadableFile, nearest_names
+from graphface.document.located import plain, scalar
+from graphface.errors import DocumentError, InputError, UnreadableFile, nearest_names
 from graphface.graph.wiring import GraphInput
 from graphface.values.digest import digest_file, digest_value
 from graphface.values.frozen import arrays_in, buffer_of, freeze
@@ -68,17 +69,22 @@ def bind(
     Raises:
         InputError: an unknown input, or a value of the wrong type.
         UnreadableFile: a file that does not exist.
+        DocumentError: mistakes in a pydantic model's file, or in its default in the graph file.
     """
     for name in given:
         if name not in inputs:
             raise InputError(
                 name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs)
             )
-    return {
+    bound = {
         name: _bind_one(entry, given, roots, stat_shortcut)
         for name, entry in inputs.items()
         if _has_value(entry, given)
     }
+    for name in bound:
+        if _is_model(inputs[name].type):
+            bound[name].value  # noqa: B018 - reads it
+    return bound
 
 
 def missing_inputs(inputs: Mapping[str, GraphInput], given: Mapping[str, Any]) -> list[str]:
@@ -103,6 +109,8 @@ def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path]
             return _bind_file(entry, _given_file(value, roots), reader, stat_shortcut)
         return _bind_object(entry, _from_text(value, declared))
     default = entry.default.value if entry.default is not None else None
+    if not _is_model(declared):
+        default = plain(default)
     if reader is not None and isinstance(default, str):
         return _bind_file(entry, _default_file(entry, default, roots), reader, stat_shortcut)
     return _bind_object(entry, default)
@@ -125,13 +133,17 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
     def load() -> Any:
         try:
             return _read_only(declared.coerce(value))
+        except DocumentError as error:
+            if all(problem.place is not None for problem in error.problems):
+                raise
+            raise InputError(entry.name, str(error)) from None
         except (ValueError, TypeError) as error:
             raise InputError(entry.name, str(error)) from None
 
     if value is not None and declared.problem(value) is not None and not _coercible(declared):
         raise InputError(entry.name, declared.problem(value) or "")
     try:
-        digest = digest_value(("value", str(declared), value))
+        digest = digest_value(("value", str(declared), plain(value)))
     except TypeError as error:
         raise InputError(entry.name, str(error)) from None
     owned = (buffer_of(a) for _, a in arrays_in(value))
@@ -187,6 +199,10 @@ def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:
         except (OSError, ValueError):  # a name that no file could have
             continue
     raise UnreadableFile(name, f"no such file beside the graph (default of input {entry.name!r}, {entry.place})")
+
+
+def _is_model(declared: PortType) -> bool:
+    return any(hasattr(atom, "model_fields") for atom in declared.alternatives)
 
 
 def _atom_reader(atom: Atom) -> Reader | None:

@@ -17,8 +17,9 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, ValidationError
+from pydantic import Field
 
+from graphface import read_yaml, validated
 from graphface.nodes.render.lights import (
     Casting,
     Color,
@@ -31,7 +32,6 @@ from graphface.nodes.render.lights import (
     PointLight,
     SpotLight,
 )
-from graphface.nodes.render.scene_file import first_problem, read_scene
 
 __all__ = ["DirectionalLight", "EnvironmentLight", "HarmonicLight", "PointLight", "Scene", "SpotLight"]
 
@@ -110,22 +110,19 @@ class Scene(Part):
         """Read a scene file.
 
         Raises:
-            UnreadableFile: not readable, not YAML, or not a scene; with the line and what was expected.
+            UnreadableFile: there is no such file, or it is not text.
+            DocumentError: not YAML, or not a scene; every mistake with its line and what was expected.
         """
-        return read_scene(Path(path), cls)
+        return read_yaml(path, cls)
 
     @classmethod
     def coerce(cls, value: object) -> Scene:
-        """A scene from a mapping, or from the path of a scene file."""
-        if isinstance(value, Scene):
-            return value
-        if isinstance(value, str | Path):
-            return cls.from_file(Path(value))
-        try:
-            return cls.model_validate(value)
-        except ValidationError as error:
-            place, message = first_problem(error)
-            raise ValueError(f"not a scene: {'.'.join(map(str, place))}: {message}") from None
+        """A scene from a mapping, or from the path of a scene file.
+
+        Raises:
+            DocumentError, UnreadableFile: as `from_file`.
+        """
+        return cls.from_file(Path(value)) if isinstance(value, str | Path) else validated(value, cls)
 
 
 def _toward_viewer(light: Casting) -> float:
