@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from graphface.document.typed_yaml import read_yaml, validated
     from graphface.evaluate.evaluator import Evaluator, Result
     from graphface.evaluate.observe import Observer
+    from graphface.facade import Graph, load
     from graphface.fallback import GraphfaceWarning, warn
-    from graphface.graph.graph import Graph, load
     from graphface.registry import Pack, Registry
     from graphface.values.port_types import ArrayType, Lazy
 
@@ -51,7 +51,7 @@ _HOMES = {
     "Asset": "assets.asset",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
-    "Graph": "graph.graph",
+    "Graph": "facade",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
     "InputError": "errors",
@@ -67,7 +67,7 @@ _HOMES = {
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
-    "load": "graph.graph",
+    "load": "facade",
     "read_yaml": "document.typed_yaml",
     "validated": "document.typed_yaml",
     "warn": "fallback",

@@ -12,11 +12,9 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from graphface.document.located import Place
-    from graphface.evaluate.observe import Record
+from graphface.place import Place
+from graphface.record import Record
 
 
 class GraphfaceError(Exception):

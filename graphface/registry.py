@@ -42,8 +42,8 @@ class Pack:
             where a family is spread over several.
         types: name used in graph files to "module:attribute".
         graphs: the package whose folder holds shipped graph files.
-        assets: "module:attribute" of tuples of `graphface.assets.asset.Asset`, the files that its operators fetch, separated
-            by spaces.
+        assets: "module:attribute" of tuples of `graphface.Asset`, the files that its operators fetch, separated by
+            spaces.
         schemas: kind of file ("scene") to "module:attribute" of a pydantic model, or of a function that returns a JSON
             Schema, for `graphface schema --kind`.
     """

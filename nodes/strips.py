@@ -16,7 +16,9 @@ from typing import TypeVar
 _VALUES = 1 << 18
 """Values of a strip: several arrays of 1 MB. A quarter is as fast for one thread, but two then wait for each other."""
 
+
 _THREADS = min(4, os.cpu_count() or 1)
+
 
 T = TypeVar("T")
 

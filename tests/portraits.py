@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphface.nodes.masks.head import Pose, cranium, ears, neck
+from graphface.nodes.head_shape import Pose, cranium, ears, neck
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.types import FloatArray, Image, Landmarks, Surface
 

@@ -3,7 +3,6 @@
 import pytest
 
 from graphface import GraphfaceWarning, warn
-from graphface.document.located import Place, Source
 from graphface.errors import (
     DocumentError,
     InputError,
@@ -15,6 +14,7 @@ from graphface.errors import (
     nearest_names,
 )
 from graphface.fallback import collector
+from graphface.place import Place, Source
 
 PLACE = Place(Source("g.yaml", "abc\nnodes: x\n"), 2, 8)
 

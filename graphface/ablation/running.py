@@ -9,17 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphface.ablation.figures import Metric, measured
 from graphface.ablation.swaps import Variant, read_swaps, variants
+from graphface.cache.memory import MemoryTier
 from graphface.errors import RunFailed, UsageError
 from graphface.evaluate.evaluator import Evaluator
-from graphface.evaluate.observe import Observer, Record
-
-if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
-    from graphface.graph.wiring import Step
+from graphface.facade import Graph, load
+from graphface.graph.request import request
 
 
 @dataclass(frozen=True)
@@ -102,9 +100,6 @@ def ablate(
     Raises:
         UsageError: a swap that the graph cannot take. InputError: an input that does not fit.
     """
-    from graphface.cache.memory import MemoryTier
-    from graphface.graph.graph import load
-
     given = dict(loading or {})
     base = load(source, **given)
     chosen = variants(read_swaps(swaps, base), one_at_a_time=one_at_a_time)
@@ -133,18 +128,7 @@ def differing(graphs: Sequence[Graph]) -> frozenset[str]:
     return frozenset(name for name, forms in seen.items() if len(forms) > 1)
 
 
-class _Times(Observer):
-    """The records of one run."""
-
-    def __init__(self) -> None:
-        self.records: list[Record] = []
-
-    def node_finished(self, record: Record, step: Step | None, value: Any) -> None:
-        self.records.append(record)
-
-
 def _loaded(source: str | Path, variant: Variant, given: Mapping[str, Any]) -> Graph:
-    from graphface.graph.graph import load
 
     both = dict(given)
     both["replace"] = {**given.get("replace", {}), **variant.replace}
@@ -166,24 +150,16 @@ def _cell(
     known: dict[bytes, float],
     swapped: frozenset[str],
 ) -> Cell:
-    bound, targets = graph.bind(case), graph.targets([output])
-    times = _Times()
-    watched = Evaluator(
-        memory=evaluator.memory,
-        disk=evaluator.disk,
-        threads=evaluator.threads,
-        guard=evaluator.guard,
-        observers=[*evaluator.observers, times],
-    )
-    value, failure = None, ""
+    asked = request(graph, case, [output])
+    value, failure, records = None, "", []
     try:
-        value = watched.run(graph, bound, targets)[output]
+        result = evaluator.run(asked)
+        value, records = result[output], result.records
     except RunFailed as error:
-        failure = str(error).partition("\n")[0]
-    ran = {r.key: r.seconds for r in times.records if r.state == "ran"}
+        failure, records = str(error).partition("\n")[0], error.records
+    ran = {r.key: r.seconds for r in records if r.state == "ran"}
     known.update(ran)
-    keys = graph.keys(bound)
-    needed = {keys[step.slot]: step for step in graph.steps_behind(targets.values()) if keys[step.slot] in known}
+    needed = {asked.key(step.slot): step for step in asked.steps() if asked.key(step.slot) in known}
     slowest = max(needed, key=lambda key: known[key], default=b"")
     return Cell(
         variant=variant,
@@ -196,6 +172,6 @@ def _cell(
         shared=sum(key not in ran for key in needed),
         slowest=(needed[slowest].name, known[slowest]) if needed else ("", 0.0),
         swapped=sum(known[key] for key, step in needed.items() if step.name in swapped),
-        warnings=tuple(f"{r.name}: {w}" for r in times.records for w in r.warnings),
+        warnings=tuple(f"{r.name}: {w}" for r in records for w in r.warnings),
         failure=failure,
     )

@@ -16,8 +16,8 @@ from graphface.document.located import scalar
 from graphface.errors import UsageError, did_you_mean, nearest_names
 
 if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
-    from graphface.graph.wiring import Step
+    from graphface.facade import Graph
+    from graphface.graph.structure import Step
 
 OVERLAYS = ("variant", "profile")
 

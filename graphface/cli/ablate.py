@@ -11,7 +11,7 @@ import typer
 from graphface.cli.options import Cache, GraphName, Inputs, Plugins, Profiles, Replaces, Sets, Variants, open_cache
 
 if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
+    from graphface.facade import Graph
 
 
 def ablate(

@@ -45,17 +45,16 @@ def explain(
     from graphface.report.terminal import print_explained
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
-    bound = loaded.bind(read_inputs(inputs))
-    targets = loaded.targets([text.partition("=")[0] for text in output] or None)
+    asked = loaded.request(read_inputs(inputs), [text.partition("=")[0] for text in output] or None)
     said: list[str] = []
     disk = open_cache(cache, said)
     history = History.beside(cache)
-    evaluator = Evaluator(disk=disk, observers=[Sizes(), Remember(history, loaded, bound, targets, disk)])
-    explained = explain_plan(loaded, bound, targets, evaluator, history)
+    evaluator = Evaluator(disk=disk, observers=[Sizes(), Remember(history, disk)])
+    explained = explain_plan(asked, evaluator, history)
     failure = None
     if run:
         try:
-            records = evaluator.run(loaded, bound, targets).records
+            records = evaluator.run(asked).records
         except RunFailed as error:
             failure, records = error, error.records
         explained = with_results(explained, records, said)

@@ -9,7 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from graphface.cache.disk import DiskTier
-    from graphface.graph.graph import Graph
+    from graphface.facade import Graph
 
 GraphName = Annotated[
     str, typer.Argument(metavar="GRAPH", help="A graph file, or the name of a shipped one (relight).")
@@ -50,7 +50,7 @@ def load_graph(
         DocumentError, UnreadableFile, PluginError: see `graphface.load`.
     """
     from graphface.document.flags import read_flag
-    from graphface.graph.graph import load
+    from graphface.facade import load
 
     return load(
         graph,

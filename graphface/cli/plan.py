@@ -36,8 +36,4 @@ def plan(
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     names = [text.partition("=")[0] for text in output] or None
-    print_plan(
-        make_plan(
-            loaded, loaded.bind(read_inputs(inputs)), loaded.targets(names), Evaluator(disk=open_cache(cache, []))
-        )
-    )
+    print_plan(make_plan(loaded.request(read_inputs(inputs), names), Evaluator(disk=open_cache(cache, []))))

@@ -24,7 +24,7 @@ from graphface.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
+    from graphface.facade import Graph
 
 
 def run(
@@ -59,7 +59,6 @@ def run(
     """Run a graph: [bold]graphface run relight -i photo=portrait.jpg -o relit.png[/bold]"""
     import os
 
-    from graphface.document.provenance import provenance
     from graphface.errors import UsageError
     from graphface.evaluate.evaluator import Evaluator
     from graphface.evaluate.observe import Observer
@@ -82,8 +81,8 @@ def run(
         )
         return
     files = output_files(loaded, output, given)
-    targets = loaded.targets(files)
-    bound = loaded.bind(given)
+    asked = loaded.request(given, files)
+    targets = asked.targets
     for name, path in files.items():
         check_output(path, loaded.type_of(targets[name]))
     _check_kept(files.values(), given.values())
@@ -97,16 +96,16 @@ def run(
         if trace is not None:
             observers.append(tracer)
         if disk is not None:
-            observers.append(Remember(History.beside(cache), loaded, bound, targets, disk))
+            observers.append(Remember(History.beside(cache), disk))
         cores = 1 if peaks else threads or os.cpu_count() or 1
         evaluator = Evaluator(disk=disk, threads=cores, guard=guard, observers=observers)  # type: ignore[arg-type]
         try:
-            result = evaluator.run(loaded, bound, targets)
+            result = evaluator.run(asked)
         finally:
             if trace is not None:
-                tracer.write(trace, loaded, bound)
+                tracer.write(trace)
     for name, path in files.items():
-        write_output(result[name], loaded.type_of(targets[name]), path, text=provenance(loaded))
+        write_output(result[name], loaded.type_of(targets[name]), path, text=loaded.provenance())
     print_warnings([*result.warnings, *said])
     if times:
         print_times(result.records)
@@ -129,7 +128,6 @@ def run_map(
         UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
     """
     from graphface.cache.memory import MemoryTier
-    from graphface.document.provenance import provenance
     from graphface.evaluate.evaluator import Evaluator
     from graphface.evaluate.mapping import MapFailed, read_maps, run_over
     from graphface.report.terminal import ProgressBar, print_times, print_warnings
@@ -159,7 +157,12 @@ def run_map(
                 continue
             for name, path in output_files(graph, output, made.inputs).items():
                 check_folder(path)
-                write_output(made.result[name], graph.type_of(targets[name]), path, text=provenance(graph))
+                write_output(
+                    made.result[name],
+                    graph.type_of(targets[name]),
+                    path,
+                    text=graph.provenance(),
+                )
             records += made.result.records
             said += [w for w in made.result.warnings if w not in said]
     print_warnings(said)

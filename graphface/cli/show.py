@@ -19,6 +19,5 @@ def show(
     origins: Annotated[bool, typer.Option(help="Say behind each value which file and line, or flag, set it.")] = True,
 ) -> None:
     """Print a graph after extends, nesting, variants, profiles and flags: one flat YAML file that runs as it is."""
-    from graphface.document.effective import effective
-
-    print(effective(load_graph(graph, sets, replaces, variants, profiles, plugins), origins=origins), end="")
+    loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
+    print(loaded.effective(origins=origins), end="")

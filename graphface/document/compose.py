@@ -28,10 +28,10 @@ from graphface.document.extending import with_bases
 from graphface.document.flags import flag_overlays, flag_place
 from graphface.document.flat import Composition, FlatNode, FlatWire
 from graphface.document.graph_files import GRAPH_SUFFIXES, GraphFiles
-from graphface.document.located import Place
 from graphface.document.overlays import Overlay, Rank, chosen_overlays, copied, inner_parts, lay_over, own_part
 from graphface.document.references import MAX_NESTING, References, Scope, Target
 from graphface.errors import DocumentError, Problem, nearest_names
+from graphface.place import Place
 
 MAX_NODES = 2_000_000
 

@@ -1,10 +1,10 @@
 """A graph file as a validated document: every entry of the right form, every value with its place.
 
 The names of nodes and inputs are words; a path ("face/landmarks") is the name that a node of a nested graph has in the
-flat form of `graphface.document.effective`. This module knows the form of one file and nothing of the others: what an operator's
-parameters are called is checked when the graph is wired (`graphface.graph.graph`), what another file says when files are
-composed (`graphface.document.compose`). All mistakes of a file are collected and reported at once. A hand-written reader instead
-of a pydantic model, since pydantic copies the tree and loses the places on the way.
+flat form of `graphface.document.effective`. This module knows the form of one file and nothing of the others: what
+another file says is known when files are composed (`graphface.document.compose`), what an operator's parameters are
+called when the graph is wired (`graphface.graph.wiring`). All mistakes of a file are collected and reported at once. A
+hand-written reader instead of a pydantic model, since pydantic copies the tree and loses the places on the way.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from graphface.document.located import Map, Place, Seq, Source, parse, plain, read_source
+from graphface.document.located import Map, Seq, parse, plain, file_source
 from graphface.errors import Problem, nearest_names
+from graphface.place import Place, Source
 
 FORMAT = 1
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
@@ -104,7 +105,7 @@ def read_document(path: Path) -> tuple[Document, list[Problem]]:
         UnreadableFile: there is no such file, it is not UTF-8 text, or it is too large.
         DocumentError: it is not YAML.
     """
-    return parse_document(read_source(path), path)
+    return parse_document(file_source(path), path)
 
 
 def parse_document(source: Source, path: Path | None = None) -> tuple[Document, list[Problem]]:

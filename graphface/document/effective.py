@@ -14,14 +14,16 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from graphface.document.located import Place, scalar
-from graphface.graph.inputs import reader_of
-
-if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
-    from graphface.graph.wiring import Argument, GraphInput, Ref, Step
+from graphface.document.document import InputEntry, Setting
+from graphface.document.flat import Composition, FlatNode, FlatWire
+from graphface.document.graph_files import shipped_folders
+from graphface.document.located import scalar
+from graphface.node import Operator
+from graphface.place import Place
+from graphface.registry import Registry
+from graphface.values.port_types import reader_of
 
 _NOT_IN_YAML = re.compile(r"[^\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 """Characters that a YAML text may not hold unescaped, or would take for the end of a line."""
@@ -30,9 +32,9 @@ Noted = Callable[[str, Place | None], str]
 """Puts a line's origin behind it."""
 
 
-def effective(graph: Graph, *, origins: bool = True) -> str:
+def effective(composition: Composition, registry: Registry, *, origins: bool = True) -> str:
     """The flat YAML of a graph; with `origins`, where each value came from (file:line:column or flag) as comments."""
-    return "\n".join(_lines(graph, origins)) + "\n"
+    return "\n".join(_lines(composition, registry, origins)) + "\n"
 
 
 def escaped(line: str) -> str:
@@ -40,9 +42,7 @@ def escaped(line: str) -> str:
     return _NOT_IN_YAML.sub(lambda found: f"\\u{ord(found[0]):04x}", line)
 
 
-def _lines(graph: Graph, origins: bool) -> Iterator[str]:
-    composition = graph.composition
-
+def _lines(composition: Composition, registry: Registry, origins: bool) -> Iterator[str]:
     def noted(line: str, place: Place | None) -> str:
         return f"{line}  # {_origin(place)}" if origins and place is not None else line
 
@@ -50,70 +50,63 @@ def _lines(graph: Graph, origins: bool) -> Iterator[str]:
     yield f"name: {_value(composition.name)}"
     if composition.doc:
         yield f"doc: {_value(composition.doc)}"
-    if graph.inputs:
+    if composition.inputs:
         yield "inputs:"
-        for entry in graph.inputs.values():
-            yield noted(
-                f"  {entry.name}: {_input(graph, entry)}", entry.default.place if entry.default else entry.place
-            )
-    yield "nodes:" if graph.steps else "nodes: {}"
-    names = [*graph.inputs, *(step.name for step in graph.steps)]
-    for step in graph.steps:
-        yield from _step_lines(step, names, composition.nodes[step.name].use.place, noted)
-    if graph.outputs:
+        for name, entry in composition.inputs.items():
+            written = _input(composition, registry, entry)
+            yield noted(f"  {name}: {written}", entry.default.place if entry.default else entry.place)
+    yield "nodes:" if composition.nodes else "nodes: {}"
+    for node in composition.nodes.values():
+        yield from _node_lines(node, registry.operator(node.use.value), noted)
+    if composition.outputs:
         yield "outputs:"
-        for name, ref in graph.outputs.items():
-            yield f"  {name}: {_reference(ref, names)}"
+        for name, target in composition.outputs.items():
+            yield f"  {name}: {_word(str(target))}"
 
 
-def _step_lines(step: Step, names: list[str], use: Place | None, noted: Noted) -> Iterator[str]:
-    yield f"  {step.name}:"
-    yield noted(f"    use: {_word(step.operator.name)}", use)
-    if step.arguments:
-        wires = ", ".join(f"{a.port}: {_wire(a, names)}" for a in step.arguments)
-        yield f"    in: {{{wires}}}"
-    if step.settings:
+def _node_lines(node: FlatNode, operator: Operator, noted: Noted) -> Iterator[str]:
+    yield f"  {node.name}:"
+    yield noted(f"    use: {_word(operator.name)}", node.use.place)
+    wires = {port: wire for port, wire in node.wires.items() if port in operator.inputs}
+    if wires:
+        yield f"    in: {{{', '.join(f'{port}: {_wire(wire)}' for port, wire in wires.items())}}}"
+    settings = {name: s for name, s in node.settings.items() if name in operator.parameters.model_fields}
+    if settings:
         yield "    with:"
-        for name, setting in step.settings.items():
+        for name, setting in settings.items():
             yield noted(f"      {name}: {_value(setting.value)}", setting.place)
 
 
-def _input(graph: Graph, entry: GraphInput) -> str:
+def _input(composition: Composition, registry: Registry, entry: InputEntry) -> str:
     """An input's type as its file writes it (a class may go by another name there), with default and doc."""
-    declared = _value(graph.composition.inputs[entry.name].type.value)
+    declared = _value(entry.type.value)
     if entry.default is None and not entry.doc:
         return declared
     parts = [f"type: {declared}"]
     if entry.default is not None:
-        parts.append(f"default: {_value(_default(graph, entry))}")
+        parts.append(f"default: {_value(_default(composition, registry, entry.type.value, entry.default))}")
     if entry.doc:
         parts.append(f"doc: {_value(entry.doc)}")
     return f"{{{', '.join(parts)}}}"
 
 
-def _default(graph: Graph, entry: GraphInput) -> Any:
+def _default(composition: Composition, registry: Registry, declared: str, default: Setting) -> Any:
     """The default; a file named by a graph in another folder, as seen from the folder of the whole graph."""
-    from graphface.graph.graph import shipped_folders
-
-    assert entry.default is not None
-    value, place, top = entry.default.value, entry.default.place, graph.composition.path
+    value, place, top = default.value, default.place, composition.path
     named_in = place.source.path if place is not None else None
-    if not isinstance(value, str) or reader_of(entry.type) is None or named_in is None or top is None:
+    if not isinstance(value, str) or reader_of(registry.type(declared)) is None or named_in is None or top is None:
         return value
     file = (named_in.parent / value).resolve()
     if named_in.parent.resolve() == top.parent.resolve() or not file.is_file():
         return value
-    roots = [folder.resolve() for folder in (top.parent, *shipped_folders(graph.registry))]
+    roots = [folder.resolve() for folder in (top.parent, *shipped_folders(registry))]
     return next((file.relative_to(root).as_posix() for root in roots if file.is_relative_to(root)), value)
 
 
-def _wire(argument: Argument, names: list[str]) -> str:
-    shown = [_reference(ref, names) for ref in argument.refs]
-    return f"[{', '.join(shown)}]" if argument.is_list else shown[0]
-
-
-def _reference(ref: Ref, names: list[str]) -> str:
-    return _word(".".join((names[ref.slot], *ref.fields)))
+def _wire(wire: FlatWire) -> str:
+    shown = [_word(str(target)) for target in wire.targets]
+    # Wires that come from a list of a nested graph form one too, and so do several.
+    return f"[{', '.join(shown)}]" if wire.is_list or len(shown) != 1 else shown[0]
 
 
 def _word(text: str) -> str:

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from graphface.document.document import NAME, NodeEntry, Setting
-from graphface.document.located import Place, Source, parse, plain, scalar
+from graphface.document.located import parse, plain, scalar
 from graphface.document.overlays import Overlay, Rank
 from graphface.errors import DocumentError, Problem
+from graphface.place import Place, Source
 
 
 def read_flag(text: str, flag: str) -> tuple[str, Any]:

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from graphface.document.document import InputEntry, Setting
-from graphface.document.located import Place, Source
 from graphface.document.references import Scope, Target
 from graphface.errors import Problem
+from graphface.place import Place, Source
 
 
 @dataclass(frozen=True)

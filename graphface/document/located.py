@@ -10,21 +10,18 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, field
-from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import yaml
 
 from graphface.errors import DocumentError, Problem, UnreadableFile
+from graphface.place import COLUMN_BITS, Place, Source
 
 MAX_DEPTH = 64
 MAX_ALIASED_VALUES = 100_000
 MAX_CHARACTERS = 256 * 1024 * 1024
 MAX_DIGITS = 1000
 
-_COLUMN_BITS = 20
 _INT = re.compile(r"[-+]?[0-9]+")
 _HEX = re.compile(r"0x[0-9a-fA-F]+")
 _OCTAL = re.compile(r"0o[0-7]+")
@@ -37,43 +34,6 @@ _CONSTANTS: dict[str, Any] = {
     "-.inf": -math.inf,
     **dict.fromkeys((".nan", ".NaN", ".NAN"), math.nan),
 }
-
-
-@dataclass(frozen=True, eq=False)
-class Source:
-    """A text that values come from: a graph file, or a command-line flag."""
-
-    name: str
-    text: str = field(repr=False)
-    path: Path | None = None
-
-    @cached_property
-    def lines(self) -> list[str]:
-        return self.text.splitlines()
-
-    def place(self, at: int) -> Place:
-        return Place(self, at >> _COLUMN_BITS, at & ((1 << _COLUMN_BITS) - 1))
-
-
-@dataclass(frozen=True)
-class Place:
-    """A position in a source; line and column count from 1."""
-
-    source: Source
-    line: int
-    column: int
-
-    def __str__(self) -> str:
-        return f"{self.source.name}:{self.line}:{self.column}"
-
-    @property
-    def excerpt(self) -> str:
-        """The source line with a caret under the column."""
-        if not 0 < self.line <= len(self.source.lines):
-            return ""
-        line = "".join(c if c.isprintable() else " " for c in self.source.lines[self.line - 1])
-        start = max(0, self.column - 81)
-        return f"    {line[start : start + 160]}\n    {' ' * (self.column - 1 - start)}^"
 
 
 class Map(dict[str, Any]):
@@ -127,7 +87,7 @@ class Seq(list[Any]):
         self._item_at.append(at)
 
 
-def read_source(path: Path) -> Source:
+def file_source(path: Path) -> Source:
     """The text of a YAML file.
 
     Raises:
@@ -282,12 +242,12 @@ class _Builder:
 
 
 def _at_start() -> int:
-    return (1 << _COLUMN_BITS) | 1
+    return (1 << COLUMN_BITS) | 1
 
 
 def _pack(mark: Any) -> int:
     line, column = int(mark.line) + 1, int(mark.column) + 1
-    return line << _COLUMN_BITS | min(column, (1 << _COLUMN_BITS) - 1)
+    return line << COLUMN_BITS | min(column, (1 << COLUMN_BITS) - 1)
 
 
 def _mark_place(source: Source, error: yaml.MarkedYAMLError) -> Place:

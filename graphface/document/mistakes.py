@@ -16,9 +16,10 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from graphface.document.located import Place, plain
+from graphface.document.located import plain
 from graphface.document.typed_value import Keys, TypedValue, choices_of, fields, holds_models
 from graphface.errors import Problem, nearest_names
+from graphface.place import Place
 
 _KINDS = {
     **dict.fromkeys(("float_type", "float_parsing"), "a number"),

@@ -6,21 +6,11 @@ Which files can hold words is known to the value types (`to_file(..., text=)` an
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from graphface.document.effective import effective
 from graphface.errors import UnreadableFile
 from graphface.registry import Registry
 
-if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
-
 KEY = "graphface"
-
-
-def provenance(graph: Graph) -> dict[str, str]:
-    """What to keep inside a result of this graph."""
-    return {KEY: effective(graph, origins=False)}
 
 
 def read_provenance(path: Path, registry: Registry) -> str:

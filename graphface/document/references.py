@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from graphface.document.document import Document, Wire
-from graphface.document.located import Place
 from graphface.errors import DocumentError, Problem, nearest_names
+from graphface.place import Place
 
 MAX_NESTING = 32
 MAX_WIRES = 10_000

@@ -10,7 +10,8 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from graphface.document.located import Map, Place, Seq
+from graphface.document.located import Map, Seq
+from graphface.place import Place
 from graphface.values.port_types import spelled_out
 
 Keys = tuple[str | int, ...]

@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from graphface.document.located import parse, plain, read_source
+from graphface.document.located import parse, plain, file_source
 from graphface.document.mistakes import mistakes
 from graphface.errors import DocumentError
 
@@ -32,7 +32,7 @@ def read_yaml(path: Path | str, model: type[Model]) -> Model:
         UnreadableFile: there is no such file, or it is not UTF-8 text.
         DocumentError: it is not YAML, or not what the model asks for; with all mistakes.
     """
-    source = read_source(Path(path))
+    source = file_source(Path(path))
     tree, problems = parse(source)
     problems += mistakes(tree, model, source.place((1 << 20) | 1))
     if problems:

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any
+from weakref import WeakKeyDictionary
 
+from graphface.cache.disk import DiskTier
 from graphface.cache.memory import MISSING, MemoryTier
-from graphface.evaluate.observe import Observer, Record, State
-from graphface.graph.wiring import Ref, Step
+from graphface.evaluate.calling import Caller, Guard
+from graphface.evaluate.observe import Observer
+from graphface.evaluate.run import Run
+from graphface.graph.keys import Keys
+from graphface.graph.request import Request
+from graphface.graph.structure import Step
+from graphface.graph.wired import WiredGraph
+from graphface.record import Record, State
 from graphface.values.frozen import freeze
-
-if TYPE_CHECKING:
-    from graphface.cache.disk import DiskTier
-    from graphface.graph.graph import Graph
-    from graphface.graph.inputs import Bound
-
-Guard = Literal["off", "warn", "error"]
 
 
 @dataclass(eq=False)
@@ -42,15 +43,15 @@ class Result(Mapping[str, Any]):
 
 
 class Evaluator:
-    """Evaluates graphs, keeping what it computed.
+    """Evaluates requests, keeping what it computed. Any number of threads may use one at the same time.
 
     Args:
         memory: the memory tier; None memoizes nothing beyond one run.
         disk: a disk tier to look into and to fill.
-        threads: how many nodes may run at once.
+        threads: how many nodes of a run may run at once.
         in_flight: bytes of live values above which nodes run one at a time, whatever `threads` says.
         guard: what to do about NaN and infinity in a node's output.
-        observers: see `graphface.evaluate.observe`.
+        observers: listen to every run; see `graphface.evaluate.observe`.
     """
 
     def __init__(
@@ -67,22 +68,34 @@ class Evaluator:
         self.disk = disk
         self.threads = max(1, threads)
         self.in_flight = in_flight
-        self.guard = guard
+        self.guard: Guard = guard
         self.observers = tuple(observers)
-        self.finite: dict[int, Any] = {}
+        self._finite: dict[int, Any] = {}
+        self._last_keys: WeakKeyDictionary[WiredGraph, Keys] = WeakKeyDictionary()
 
-    def run(self, graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]) -> Result:
-        """The values of `targets`.
+    def run(self, request: Request, observers: Sequence[Observer] = ()) -> Result:
+        """The values of a request's targets.
+
+        Args:
+            observers: listen to this run only.
 
         Raises:
             InputError: an input that is needed was not given.
             RunFailed: a node failed; outputs that did not need it are in its `finished`.
             KeyboardInterrupt: between nodes; what was computed stays memoized.
         """
-        from graphface.evaluate.run import Run
+        self._last_keys[request.graph] = request.keys
+        listening = (*self.observers, *observers)
 
-        values, records = Run(self, graph, bound, targets).go()
+        def caller(values: dict[bytes, Any]) -> Caller:
+            return Caller(request, values, self.guard, self._finite, listening)
+
+        values, records = Run(request, self, caller, listening, self.threads, self.in_flight).go()
         return Result(values, records)
+
+    def last_keys(self, graph: WiredGraph) -> Keys | None:
+        """The keys of the last request of a graph, which save work in making the next one."""
+        return self._last_keys.get(graph)
 
     def find(self, key: bytes, step: Step | None) -> tuple[Any, State]:
         """A memoized value and the tier that had it, or `MISSING`."""
@@ -98,3 +111,12 @@ class Evaluator:
                     self.memory.put(key, value, self.disk.cost(key), arrays)
                 return value, "disk"
         return MISSING, "ran"
+
+    def keep(self, key: bytes, step: Step | None, value: Any, seconds: float, arrays: tuple[Any, ...]) -> None:
+        """Memoize a value that took `seconds` to compute; `arrays` are the buffers it holds."""
+        if self.memory is not None:
+            self.memory.put(key, value, seconds, arrays)
+        if self.disk is not None and step is not None:
+            operator = step.operator
+            meta = {"operator": operator.name}
+            self.disk.put(key, value, cost_seconds=seconds, meta=meta, annotation=operator.output_annotation)

@@ -1,6 +1,6 @@
 """One graph over many inputs: every combination of the files that stand for its mapped inputs.
 
-    for made in run_over(graph, evaluator, {"photo": photos, "reference": references}, {}, graph.targets()):
+    for made in run_over(graph, evaluator, {"photo": photos, "reference": references}, {}):
         made.inputs, made.result
 
 Nothing here shares work by itself: every combination is an ordinary run, and the evaluator's memory tier knows what was
@@ -11,17 +11,15 @@ tier's budget; the last input named varies fastest, so that of the others one va
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphface.errors import GraphfaceError, InputError, RunError, UnreadableFile, UsageError, nearest_names
-
-if TYPE_CHECKING:
-    from graphface.evaluate.evaluator import Evaluator, Result
-    from graphface.graph.graph import Graph
-    from graphface.graph.wiring import Ref
+from graphface.evaluate.evaluator import Evaluator, Result
+from graphface.graph.request import request
+from graphface.graph.wired import WiredGraph
 
 
 @dataclass(frozen=True)
@@ -49,11 +47,11 @@ class MapFailed(RunError):
 
 
 def run_over(
-    graph: Graph,
+    graph: WiredGraph,
     evaluator: Evaluator,
     maps: Mapping[str, Sequence[Any]],
     given: Mapping[str, Any],
-    targets: Mapping[str, Ref],
+    outputs: Iterable[str] | None = None,
 ) -> Iterator[Made]:
     """Run the graph for every combination of the values in `maps`, with `given` for its other inputs.
 
@@ -68,10 +66,11 @@ def run_over(
             raise InputError(name, f"the graph has no such input (it has {has})", nearest_names(name, graph.inputs))
         if name in given:
             raise InputError(name, "is both given and mapped over")
+    asked = list(outputs) if outputs is not None else None
     for values in itertools.product(*maps.values()):
         inputs = {**given, **dict(zip(maps, values, strict=True))}
         try:
-            yield Made(inputs, evaluator.run(graph, graph.bind(inputs), targets))
+            yield Made(inputs, evaluator.run(request(graph, inputs, asked, evaluator.last_keys(graph))))
         except GraphfaceError as error:
             yield Made(inputs, error=error)
 

@@ -7,39 +7,18 @@ one test of an empty tuple.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
-from graphface.graph.wiring import Step
-
-State = Literal["ran", "memory", "disk", "failed", "blocked", "declined"]
-
-
-@dataclass(slots=True)
-class Record:
-    """What became of one node or input in a run.
-
-    `state`: "ran"; found in "memory" or on "disk"; "failed"; "blocked" by a failure above it; "declined" by the only
-    nodes that could have used it, for the `reason` given. `seconds` is wall time, `cpu` that of its thread (measured
-    where an observer listens).
-    """
-
-    name: str
-    operator: str
-    state: State
-    key: bytes
-    seconds: float = 0.0
-    cpu: float = 0.0
-    bytes: int = 0
-    reason: str = ""
-    warnings: Sequence[str] = ()
+from graphface.graph.request import Request
+from graphface.graph.structure import Step
+from graphface.record import Record
 
 
 class Observer:
     """Base of observers; every hook does nothing. Hooks run on the thread that called `run`, except `node_started`."""
 
-    def run_started(self, steps: Sequence[Step]) -> None:
-        """A run begins; `steps` are the nodes that may run or be looked up."""
+    def run_started(self, request: Request) -> None:
+        """A run begins; `request.steps()` are the nodes that may run or be looked up."""
 
     def node_started(self, name: str, step: Step | None) -> None:
         """A node's function (or, with no step, an input's file) is about to be evaluated."""

@@ -6,296 +6,310 @@ step with lazy ports is then asked by its `needs` rule which of them it wants, a
 run inline or on a pool of threads: the bookkeeping is the same and stays on the calling thread, so results, order of
 records within a branch and what is memoized do not depend on the number of threads.
 
-Depth-first demand with a stack (no recursion: graphs may be 100,000 nodes deep) was chosen over walking a precomputed
-plan because lazy ports make the needed set depend on values; `graphface.evaluate.plan` predicts it with the same rules.
+Depth-first demand with a stack (no recursion: graphs are deep) was chosen over walking a precomputed plan because lazy
+ports make the needed set depend on values; `graphface.evaluate.plan` predicts it by the same rule,
+`graphface.graph.demand`.
 
-A value is let go when its last consumer in the run is done; what the memory tier keeps is that tier's affair.
+All state is by key, so that equal nodes of a graph are one. A value is let go when its last reader in the run is done;
+what the memory tier keeps is that tier's affair.
 """
 
 from __future__ import annotations
 
 import queue
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 from graphface.cache.memory import MISSING
 from graphface.errors import NodeError, RunFailed
-from graphface.evaluate.calling import Caller, Outcome, take
-from graphface.evaluate.observe import Record, State, hooks
-from graphface.graph.needs import declined_with
-from graphface.graph.wiring import Ref, Step
+from graphface.evaluate.calling import Caller, Outcome
+from graphface.evaluate.observe import Observer, hooks
+from graphface.graph.demand import declined_with, demanded, take
+from graphface.graph.keys import Declined
+from graphface.graph.request import Request
+from graphface.graph.structure import Step
+from graphface.record import Record, State
 from graphface.values.frozen import freeze
 
-if TYPE_CHECKING:
-    from graphface.evaluate.evaluator import Evaluator
-    from graphface.graph.graph import Graph
-    from graphface.graph.inputs import Bound
+
+class Tiers(Protocol):
+    """Where values are looked up and kept."""
+
+    def find(self, key: bytes, step: Step | None) -> tuple[Any, State]: ...
+
+    def keep(self, key: bytes, step: Step | None, value: Any, seconds: float, arrays: tuple[Any, ...]) -> None: ...
+
+
+@dataclass(slots=True, eq=False)
+class _Task:
+    """One key that is demanded in a run.
+
+    `waiting` counts the values it waits for, None before they are demanded; `waiters` wait for it. `readers` are the
+    tasks that may still read its value. `declined` are the lazy ports that its step does without; None while its rule
+    cannot be asked.
+    """
+
+    key: bytes
+    slot: int
+    step: Step | None
+    waiting: int = 0
+    waiters: list[_Task] = field(default_factory=list)
+    sources: list[_Task] = field(default_factory=list)
+    readers: int = 0
+    declined: Declined | None = None
+    failed: bool = False
+    size: int = 0
 
 
 class Run:
-    """One evaluation. All state is by key, so that equal nodes of a graph are one."""
+    """One evaluation of a request."""
 
     def __init__(
-        self, evaluator: Evaluator, graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]
+        self,
+        request: Request,
+        tiers: Tiers,
+        call: Callable[[dict[bytes, Any]], Caller],
+        observers: tuple[Observer, ...],
+        threads: int,
+        in_flight: int,
     ) -> None:
-        self._evaluator = evaluator
-        self._memory, self._disk = evaluator.memory, evaluator.disk
-        self._graph = graph
-        self._first = len(graph.inputs)
-        self._bound = [bound.get(name) for name in graph.inputs]
-        self._lent: set[int] = set().union(*(b.borrowed for b in self._bound if b is not None))
-        self._keys = graph.keys(bound)
-        self._targets = targets
-        self._kept = {self._keys[ref.slot] for ref in targets.values()}
-        self._slots: dict[bytes, int] = {}
-        self._done: dict[bytes, Any] = {}
-        self._waiting: dict[bytes, int] = {}
-        self._dependents: dict[bytes, list[bytes]] = {}
-        self._consumers: dict[bytes, int] = {}
-        self._ready: list[bytes] = []
-        self._sizes: dict[bytes, int] = {}
+        self._request = request
+        self._tiers = tiers
+        self._threads = threads
+        self._in_flight = in_flight
+        self._observers = observers
+        self._on_finish = hooks(observers, "node_finished")
+        self._names = request.graph.names
+        self._keys = request.keys.by_slot
+        self._kept = {self._keys[ref.slot] for ref in request.targets.values()}
+        self._values: dict[bytes, Any] = {}
+        self._caller = call(self._values)
+        self._tasks: dict[bytes, _Task] = {}
+        self._demanded: list[_Task] = []
+        self._ready: list[_Task] = []
+        self._undecided = 0
+        self._spent: list[_Task] = []
         self._live = 0
-        self._wanted: list[int] = []
-        self._decisions = dict(graph.decisions)
-        self._declined: dict[bytes, frozenset[str]] = {}
-        self._undecided: set[bytes] = set()
-        self._spent: list[bytes] = []
-        self._failed: dict[bytes, NodeError | None] = {}
+        self._failures: list[NodeError] = []
         self._records: list[Record] = []
-        self._on_finish = hooks(evaluator.observers, "node_finished")
-        self._caller = Caller(evaluator, graph, self._bound, self._keys, self._done, self._declined)
 
     def go(self) -> tuple[dict[str, Any], list[Record]]:
-        """The outputs by name, and what became of every node."""
-        for hook in hooks(self._evaluator.observers, "run_started"):
-            hook(self._graph.steps_behind(self._targets.values()))
+        """The outputs by name, and what became of every node.
+
+        Raises:
+            RunFailed: a node failed; it has the outputs that did not need it.
+        """
+        for hook in hooks(self._observers, "run_started"):
+            hook(self._request)
         try:
-            self._wanted += [ref.slot for ref in self._targets.values()]
+            for ref in self._request.targets.values():
+                self._task(ref.slot)
             self._demand()
-            if self._evaluator.threads == 1:
+            if self._threads == 1:
                 self._loop_inline()
             else:
                 self._loop_threads()
         finally:
-            for hook in hooks(self._evaluator.observers, "run_finished"):
+            for hook in hooks(self._observers, "run_finished"):
                 hook(self._records)
         values = {}
-        for name, ref in self._targets.items():
+        for name, ref in self._request.targets.items():
             key = self._keys[ref.slot]
-            if key in self._done:
-                values[name] = take(self._done[key], ref.fields)
-        failures = [f for f in self._failed.values() if f is not None]
-        if failures:
-            raise RunFailed(failures, values, self._records)
+            if key in self._values:
+                values[name] = take(self._values[key], ref.fields)
+        if self._failures:
+            raise RunFailed(self._failures, values, self._records)
         return values, self._records
 
     # --- demand -----------------------------------------------------------------------------------
 
+    def _task(self, slot: int) -> _Task:
+        """The task of a slot's key, demanded now if it was not before."""
+        key = self._keys[slot]
+        task = self._tasks.get(key)
+        if task is None:
+            task = self._tasks[key] = _Task(key, slot, self._request.graph.step(slot))
+            self._demanded.append(task)
+        return task
+
     def _demand(self) -> None:
-        """See to it that the slots in `_wanted` get their values: look each up, or demand what it needs."""
-        keys, demanded, find, first, steps = (
-            self._keys,
-            self._slots,
-            self._evaluator.find,
-            self._first,
-            self._graph.steps,
-        )
-        stack = self._wanted
-        while stack:
-            slot = stack.pop()
-            key = keys[slot]
-            if key in demanded:
-                continue
-            demanded[key] = slot
-            step = steps[slot - first] if slot >= first else None
-            value, tier = find(key, step)
+        """Look up everything newly demanded, or demand what it needs."""
+        find, newest = self._tiers.find, self._demanded
+        while newest:
+            task = newest.pop()
+            step = task.step
+            value, tier = find(task.key, step)
             if value is not MISSING:
-                self._done[key] = value
-                self._report(Record(self._name(slot), _operator_name(step), tier, key), step, value)
-                self._arrived(key)
+                self._values[task.key] = value
+                self._report(task, tier, value)
+                self._arrived(task)
             elif step is None:
-                self._ready.append(key)
+                self._ready.append(task)
             else:
-                above = step.eager
-                if step.lazy:
-                    above = self._demand_lazy(key, step)
-                for parent in (*step.eager, *step.lazy):
-                    self._consumers[keys[parent]] = self._consumers.get(keys[parent], 0) + 1
-                self._await(key, above)
-                stack.extend(above)
+                task.declined = self._request.declined(step)
+                if task.declined is None:
+                    self._undecided += 1
+                elif task.declined:
+                    self._report_declined(task)
+                self._await(task, demanded(step, task.declined)[0])
         if self._spent and not self._undecided:
             self._let_go()
 
-    def _demand_lazy(self, key: bytes, step: Step) -> tuple[int, ...]:
-        """The slots that a step with lazy ports needs as far as is known before its eager inputs are there."""
-        decided = self._decisions.get(step.slot)
-        if decided is None:
-            self._undecided.add(key)
-            return step.eager
-        return (*step.eager, *self._settle(key, step, decided))
-
-    def _settle(self, key: bytes, step: Step, declined: Mapping[str, str]) -> tuple[int, ...]:
-        """Note which lazy ports a step declines; the slots behind those that it wants."""
-        self._declined[key] = frozenset(declined)
-        for port, reason in declined.items():
-            self._report(Record(f"{step.name}.{port}", step.operator.name, "declined", key, reason=reason), step, None)
-        wanted = (r.slot for a in step.arguments if a.lazy and a.port not in declined for r in a.refs)
-        return tuple(dict.fromkeys(wanted))
-
-    def _await(self, key: bytes, above: Sequence[int]) -> None:
-        """Make a step ready once every slot above it has its value."""
+    def _await(self, task: _Task, slots: Iterable[int]) -> None:
+        """Make a task ready, or ask its rule, once every one of these slots has its value."""
         missing = 0
-        for slot in above:
-            parent = self._keys[slot]
-            if parent in self._done:
-                continue
-            if parent in self._failed:
-                self._fail(key, None)
+        for slot in slots:
+            source = self._task(slot)
+            if source.failed:
+                self._block(task)
                 return
-            self._dependents.setdefault(parent, []).append(key)
-            missing += 1
-        self._waiting[key] = missing
-        if missing == 0 and key in self._undecided:
-            self._decide(key)
-        elif missing == 0:
-            self._ready.append(key)
+            source.readers += 1
+            task.sources.append(source)
+            if source.key not in self._values:
+                source.waiters.append(task)
+                missing += 1
+        task.waiting = missing
+        if not missing:
+            self._proceed(task)
 
-    def _arrived(self, key: bytes) -> None:
-        """A value is there: tell the steps that wait for it."""
-        waiting = self._waiting
-        for dependent in self._dependents.pop(key, ()):
-            if dependent in waiting:
-                waiting[dependent] -= 1
-                if waiting[dependent] == 0:
-                    if dependent in self._undecided:
-                        self._decide(dependent)
-                    else:
-                        self._ready.append(dependent)
+    def _arrived(self, task: _Task) -> None:
+        """A value is there: tell the tasks that wait for it."""
+        for waiter in task.waiters:
+            waiter.waiting -= 1
+            if not waiter.waiting:
+                self._proceed(waiter)
+        task.waiters.clear()
 
-    def _decide(self, key: bytes) -> None:
+    def _proceed(self, task: _Task) -> None:
+        """Everything a task waited for is there. Runs only what has not failed meanwhile."""
+        if task.failed:
+            return
+        if task.declined is None and task.step is not None:
+            self._decide(task, task.step)
+        else:
+            self._ready.append(task)
+
+    def _decide(self, task: _Task, step: Step) -> None:
         """All eager inputs are there: ask the rule which lazy ones are wanted."""
-        step = self._step(key)
         try:
             eager = {a.port: self._caller.argument(a) for a in step.arguments if not a.lazy}
-            declined = declined_with(step, eager)
+            task.declined = declined_with(step, eager)
         except Exception as error:
-            self._fail(key, self._caller.error(step, error, {}))
+            self._fail(task, self._caller.error(step, error, {}))
             return
-        self._undecided.discard(key)
-        wanted = self._settle(key, step, declined)
-        self._await(key, wanted)
-        self._wanted += wanted  # demanded by whoever called: recursion would be as deep as a chain of lazy ports
+        self._undecided -= 1
+        self._report_declined(task)
+        wanted, _ = demanded(step, task.declined)
+        self._await(task, (slot for slot in wanted if slot not in step.eager))
 
     # --- loops ------------------------------------------------------------------------------------
 
     def _loop_inline(self) -> None:
-        ready = self._ready
+        ready, evaluate = self._ready, self._caller.evaluate
         while ready:
-            key = ready.pop()
-            self._finish(key, self._caller.evaluate(self._slots[key]))
+            task = ready.pop()
+            self._finish(task, evaluate(task.slot, task.step, task.declined or {}))
 
     def _loop_threads(self) -> None:
-        threads = self._evaluator.threads
-        finished: queue.SimpleQueue[tuple[bytes, Outcome]] = queue.SimpleQueue()
+        finished: queue.SimpleQueue[tuple[_Task, Outcome]] = queue.SimpleQueue()
         running = 0
 
-        def work(key: bytes, slot: int) -> None:
-            finished.put((key, self._caller.evaluate(slot)))
+        def work(task: _Task) -> None:
+            finished.put((task, self._caller.evaluate(task.slot, task.step, task.declined or {})))
 
-        with ThreadPoolExecutor(threads, thread_name_prefix="graphface") as pool:
+        with ThreadPoolExecutor(self._threads, thread_name_prefix="graphface") as pool:
             while self._ready or running:
-                while self._ready and running < (threads if self._live <= self._evaluator.in_flight else 1):
-                    key = self._ready.pop()
-                    pool.submit(work, key, self._slots[key])
+                while self._ready and running < (self._threads if self._live <= self._in_flight else 1):
+                    pool.submit(work, self._ready.pop())
                     running += 1
-                key, outcome = finished.get()
+                task, outcome = finished.get()
                 running -= 1
-                self._finish(key, outcome)
+                self._finish(task, outcome)
 
     # --- bookkeeping, on the calling thread -------------------------------------------------------
 
-    def _finish(self, key: bytes, outcome: Outcome) -> None:
+    def _finish(self, task: _Task, outcome: Outcome) -> None:
         value, error, seconds, cpu, said = outcome
-        if error is not None and not isinstance(error, NodeError):
-            raise error
-        slot = self._slots[key]
-        step = self._graph.steps[slot - self._first] if slot >= self._first else None
         if error is not None:
-            self._fail(key, error, seconds)
+            if not isinstance(error, NodeError):
+                raise error
+            self._fail(task, error, seconds)
             return
-        self._done[key] = value
-        size = 0
+        self._values[task.key] = value
         arrays: tuple[Any, ...] = ()
         if type(value) is not float:
-            arrays = freeze(value, self._lent)
+            arrays = freeze(value)
             if arrays:
-                size = self._sizes[key] = sum([a.nbytes for a in arrays])
-                self._live += size
-        if not arrays or not any(id(a) in self._lent for a in arrays):
-            if self._memory is not None:
-                self._memory.put(key, value, seconds, arrays)
-            if self._disk is not None and step is not None:
-                self._store(key, step, value, seconds)
-        self._report(
-            Record(self._name(slot), _operator_name(step), "ran", key, seconds, cpu, size, "", said or ()), step, value
-        )
-        self._arrived(key)
-        if self._wanted or self._spent:
+                task.size = sum([a.nbytes for a in arrays])
+                self._live += task.size
+        self._tiers.keep(task.key, task.step, value, seconds, arrays)
+        self._report(task, "ran", value, seconds, cpu, said)
+        self._arrived(task)
+        for source in task.sources:
+            source.readers -= 1
+            if not source.readers:
+                self._spent.append(source)
+        if self._demanded or (self._spent and not self._undecided):
             self._demand()
-        if step is not None:
-            self._release(step)
-
-    def _store(self, key: bytes, step: Step, value: Any, seconds: float) -> None:
-        assert self._disk is not None
-        meta = {"operator": step.operator.name}
-        self._disk.put(key, value, cost_seconds=seconds, meta=meta, annotation=step.operator.output_annotation)
-
-    def _release(self, step: Step) -> None:
-        """Let go of values that no step of this run waits for any more, once no rule can ask for them again."""
-        consumers, keys = self._consumers, self._keys
-        for slot in (*step.eager, *step.lazy) if step.lazy else step.eager:
-            key = keys[slot]
-            consumers[key] -= 1
-            if consumers[key] == 0 and key not in self._kept and key in self._done:
-                self._spent.append(key)
-        if self._spent and not self._undecided:
-            self._let_go()
 
     def _let_go(self) -> None:
-        for key in self._spent:
-            if self._consumers[key] == 0 and key in self._done:
-                del self._done[key], self._slots[key]
-                self._live -= self._sizes.pop(key, 0)
+        """Drop values that no task of this run reads any more, once no rule can ask for them again."""
+        for task in self._spent:
+            if not task.readers and task.key not in self._kept and self._tasks.get(task.key) is task:
+                del self._tasks[task.key]
+                del self._values[task.key]
+                self._live -= task.size
         self._spent.clear()
 
-    def _fail(self, key: bytes, error: NodeError | None, seconds: float = 0.0) -> None:
-        """Note a failure and everything below that it blocks."""
-        stack: list[tuple[bytes, NodeError | None]] = [(key, error)]
-        while stack:
-            current, failure = stack.pop()
-            if current in self._failed:
-                continue
-            self._failed[current] = failure
-            self._waiting.pop(current, None)
-            self._undecided.discard(current)
-            step = self._step(current)
-            state: State = "failed" if failure is not None else "blocked"
-            reason = failure.reason if failure is not None else ""
-            self._report(Record(step.name, step.operator.name, state, current, seconds, reason=reason), step, None)
-            stack.extend((dependent, None) for dependent in self._dependents.pop(current, ()))
+    def _fail(self, task: _Task, error: NodeError, seconds: float = 0.0) -> None:
+        self._failures.append(error)
+        self._stop(task, "failed", error.reason, seconds)
 
-    def _report(self, record: Record, step: Step | None, value: Any) -> None:
+    def _block(self, task: _Task) -> None:
+        self._stop(task, "blocked", "", 0.0)
+
+    def _stop(self, task: _Task, state: State, reason: str, seconds: float) -> None:
+        """Note that a task has no value, and that those waiting for it never will."""
+        stack = [(task, state, reason, seconds)]
+        while stack:
+            current, now, why, took = stack.pop()
+            if current.failed:
+                continue
+            current.failed = True
+            if current.declined is None and current.step is not None:
+                self._undecided -= 1
+            self._report(current, now, None, took, reason=why)
+            stack.extend((waiter, "blocked", "", 0.0) for waiter in current.waiters)
+            current.waiters.clear()
+
+    def _report(
+        self,
+        task: _Task,
+        state: State,
+        value: Any,
+        seconds: float = 0.0,
+        cpu: float = 0.0,
+        warnings: list[str] | tuple[str, ...] = (),
+        reason: str = "",
+    ) -> None:
+        step = task.step
+        operator = step.operator.name if step is not None else "input"
+        self._tell(
+            Record(self._names[task.slot], operator, state, task.key, seconds, cpu, task.size, reason, warnings or ()),
+            step,
+            value,
+        )
+
+    def _report_declined(self, task: _Task) -> None:
+        step = task.step
+        assert step is not None
+        for port, reason in (task.declined or {}).items():
+            name = f"{step.name}.{port}"
+            self._tell(Record(name, step.operator.name, "declined", task.key, reason=reason), step, None)
+
+    def _tell(self, record: Record, step: Step | None, value: Any) -> None:
         self._records.append(record)
         for hook in self._on_finish:
             hook(record, step, value)
-
-    def _step(self, key: bytes) -> Step:
-        return self._graph.steps[self._slots[key] - self._first]
-
-    def _name(self, slot: int) -> str:
-        return self._graph.steps[slot - self._first].name if slot >= self._first else self._graph.input_names[slot]
-
-
-def _operator_name(step: Step | None) -> str:
-    return step.operator.name if step is not None else "input"

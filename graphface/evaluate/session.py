@@ -16,15 +16,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphface.cache.memory import MemoryTier
 from graphface.evaluate.evaluator import Evaluator, Result
+from graphface.evaluate.plan import Planned, plan
 from graphface.graph.inputs import Bound
-
-if TYPE_CHECKING:
-    from graphface.evaluate.plan import Planned
-    from graphface.graph.graph import Graph
+from graphface.graph.request import Request, request
+from graphface.graph.wired import WiredGraph
 
 Shrink = Callable[[Any], Any]
 
@@ -43,10 +42,10 @@ class Session:
 
     def __init__(
         self,
-        graph: Graph,
+        graph: WiredGraph,
         inputs: Mapping[str, Any] | None = None,
         *,
-        draft: Graph | None = None,
+        draft: WiredGraph | None = None,
         shrink: Mapping[str, Shrink] | None = None,
         evaluator: Evaluator | None = None,
         history: int = 4,
@@ -82,20 +81,21 @@ class Session:
     def render(self, outputs: Iterable[str] | None = None) -> Result:
         """The outputs for the inputs as they are now, at full size."""
         with self._lock:
-            return self._remembered(self.evaluator.run(self.graph, self._full, self.graph.targets(outputs)), full=True)
+            return self._remembered(self.evaluator.run(self._request(outputs)), full=True)
 
     def preview(self, outputs: Iterable[str] | None = None) -> Result:
         """The outputs of `draft` for the reduced inputs."""
         with self._lock:
-            small = self.evaluator.run(self.draft, self._small, self.draft.targets(outputs))
-            return self._remembered(small, full=False)
+            asked = request(self.draft, self._small, outputs, self.evaluator.last_keys(self.draft))
+            return self._remembered(self.evaluator.run(asked), full=False)
 
     def plan(self, outputs: Iterable[str] | None = None) -> list[Planned]:
         """What `render` would do now: after an edit, the nodes it reaches."""
-        from graphface.evaluate.plan import plan
-
         with self._lock:
-            return plan(self.graph, self._full, self.graph.targets(outputs), self.evaluator)
+            return plan(self._request(outputs), self.evaluator)
+
+    def _request(self, outputs: Iterable[str] | None) -> Request:
+        return request(self.graph, self._full, outputs, self.evaluator.last_keys(self.graph))
 
     def _remembered(self, result: Result, *, full: bool) -> Result:
         """Forget states of the nodes that are older than `history`."""

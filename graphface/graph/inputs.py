@@ -1,9 +1,9 @@
 """What a caller gives for a graph's inputs: files, arrays or values, known by content and loaded only when needed.
 
 A bound input has its digest at once and its value when somebody asks for it, so that a fully memoized run decodes no
-picture. Only a pydantic model (a scene) is read at once: it is small, and a mistake in it is found before anything runs.
-Arrays of the caller are not copied: they are passed on as read-only views, and since the caller may still
-write to them, a value that shares their memory is never memoized (`Bound.borrowed`).
+picture. Only a pydantic model (a scene) is read at once: it is small, and its mistakes are found before anything runs.
+The value is always what the digest was taken of, or results would be kept under the wrong keys: arrays that their owner
+may still write to are copied, and a file that was written to between hashing and reading is refused.
 """
 
 from __future__ import annotations
@@ -20,12 +20,10 @@ import numpy as np
 
 from graphface.document.located import plain, scalar
 from graphface.errors import DocumentError, InputError, UnreadableFile, nearest_names
-from graphface.graph.wiring import GraphInput
+from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value
 from graphface.values.frozen import arrays_in, buffer_of, freeze
-from graphface.values.port_types import ArrayType, Atom, PortType
-
-Reader = Callable[[Path], Any]
+from graphface.values.port_types import ArrayType, PortType, Reader, reader_of
 
 
 @dataclass(eq=False)
@@ -36,7 +34,6 @@ class Bound:
     digest: bytes
     origin: str
     load: Callable[[], Any] = field(repr=False)
-    borrowed: frozenset[int] = frozenset()
     is_file: bool = False
 
     @cached_property
@@ -47,8 +44,7 @@ class Bound:
             UnreadableFile, InputError: the file or object is not what the input takes.
         """
         value = self.load()
-        if not self.borrowed:
-            freeze(value)
+        freeze(value)
         return value
 
 
@@ -62,7 +58,8 @@ def bind(
     """Bind every input of a graph to what was given, or to its default.
 
     Args:
-        given: input name to a value, or to a path where the input's type can be read from a file.
+        given: input name to a value, or to a path where the input's type can be read from a file, or to what an earlier
+            call made of one.
         roots: folders in which relative paths are looked for: default files there only, given ones there at last.
         stat_shortcut: trust size and modification time of a file hashed before.
 
@@ -91,11 +88,6 @@ def missing_inputs(inputs: Mapping[str, GraphInput], given: Mapping[str, Any]) -
     return [name for name, entry in inputs.items() if not _has_value(entry, given)]
 
 
-def reader_of(declared: PortType) -> Reader | None:
-    """How a value of this type is read from a file, if it can be."""
-    return next((r for a in declared.alternatives if (r := _atom_reader(a)) is not None), None)
-
-
 def _has_value(entry: GraphInput, given: Mapping[str, Any]) -> bool:
     return entry.name in given or entry.default is not None or entry.type.optional
 
@@ -105,6 +97,8 @@ def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path]
     reader = reader_of(declared)
     if name in given:
         value = given[name]
+        if isinstance(value, Bound):
+            return value
         if reader is not None and isinstance(value, str | Path):
             return _bind_file(entry, _given_file(value, roots), reader, stat_shortcut)
         return _bind_object(entry, _from_text(value, declared))
@@ -124,15 +118,29 @@ def _bind_file(entry: GraphInput, path: Path, reader: Reader, stat_shortcut: boo
     except UnreadableFile as error:
         raise UnreadableFile(path, f"{error.reason} (input {entry.name!r})") from None
     digest = digest_value(("file", str(entry.type), _code_of(reader), content))
-    return Bound(entry.name, digest, str(path), lambda: reader(path), is_file=True)
+
+    def load() -> Any:
+        value = reader(path)
+        if digest_file(path, stat_shortcut=stat_shortcut) != content:
+            raise UnreadableFile(path, f"was changed while it was in use (input {entry.name!r}); run again")
+        return value
+
+    return Bound(entry.name, digest, str(path), load, is_file=True)
 
 
 def _bind_object(entry: GraphInput, value: Any) -> Bound:
     declared = entry.type
+    if value is not None and declared.problem(value) is not None and not _coercible(declared):
+        raise InputError(entry.name, declared.problem(value) or "")
+    try:
+        own = _own(value)
+        digest = digest_value(("value", str(declared), plain(own)))
+    except TypeError as error:
+        raise InputError(entry.name, str(error)) from None
 
     def load() -> Any:
         try:
-            return _read_only(declared.coerce(value))
+            return declared.coerce(own)
         except DocumentError as error:
             if all(problem.place is not None for problem in error.problems):
                 raise
@@ -140,35 +148,33 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
         except (ValueError, TypeError) as error:
             raise InputError(entry.name, str(error)) from None
 
-    if value is not None and declared.problem(value) is not None and not _coercible(declared):
-        raise InputError(entry.name, declared.problem(value) or "")
-    try:
-        digest = digest_value(("value", str(declared), plain(value)))
-    except TypeError as error:
-        raise InputError(entry.name, str(error)) from None
-    owned = (buffer_of(a) for _, a in arrays_in(value))
-    borrowed = frozenset(id(a) for a in owned if a.flags.writeable or a.base is not None)
-    return Bound(entry.name, digest, type(value).__name__, load, borrowed)
+    return Bound(entry.name, digest, type(value).__name__, load)
 
 
-def _read_only(value: Any) -> Any:
-    """The same value over read-only views; the caller's own arrays, at any depth, keep their flags."""
-    if next(arrays_in(value), None) is None:
+def _own(value: Any) -> Any:
+    """The same value, with copies of the arrays, at any depth, that somebody else may write to."""
+    if all(_settled(array) for _, array in arrays_in(value)):
         return value
     if isinstance(value, np.ndarray):
-        view = value.view()
-        view.flags.writeable = False
-        return view
+        return value if _settled(value) else value.copy()
     if isinstance(value, Mapping):
-        return {key: _read_only(item) for key, item in value.items()}
+        return {key: _own(item) for key, item in value.items()}
     if isinstance(value, tuple) and hasattr(value, "_make"):
-        return value._make(_read_only(item) for item in value)
+        return value._make(_own(item) for item in value)
     if isinstance(value, list | tuple):
-        return type(value)(_read_only(item) for item in value)
-    viewing = copy.copy(value)
+        return type(value)(_own(item) for item in value)
+    owned = copy.copy(value)
     for part in fields(value):
-        object.__setattr__(viewing, part.name, _read_only(getattr(value, part.name)))
-    return viewing
+        object.__setattr__(owned, part.name, _own(getattr(value, part.name)))
+    return owned
+
+
+def _settled(array: np.ndarray) -> bool:
+    """Whether nobody can write to an array: neither it nor what owns its memory is writable."""
+    owner = buffer_of(array)
+    return not (array.flags.writeable or owner.flags.writeable) and (
+        owner.base is None or isinstance(owner.base, bytes)
+    )
 
 
 def _from_text(value: Any, declared: PortType) -> Any:
@@ -203,12 +209,6 @@ def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:
 
 def _is_model(declared: PortType) -> bool:
     return any(hasattr(atom, "model_fields") for atom in declared.alternatives)
-
-
-def _atom_reader(atom: Atom) -> Reader | None:
-    if isinstance(atom, ArrayType):
-        return atom.from_file
-    return getattr(atom, "from_file", None)
 
 
 def _coercible(declared: PortType) -> bool:

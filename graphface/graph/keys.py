@@ -4,24 +4,32 @@ A step's key is one 16-byte digest of its operator (name, version, fingerprint o
 which fields of which inputs its ports take, and the keys of those inputs. It holds the *digests* of its inputs, never
 their nested description, so a key costs the same at any depth, and no pixel of an intermediate is ever read.
 
-A table keeps the keys of the last binding and recomputes only what lies below an input that changed.
+`Keys` is a value, made once for the inputs of one request and never written to afterwards. A table that the graph
+updated in place was rejected: a second thread that used the graph read keys of the first one's inputs, and a cache then
+kept its results under them. A run takes its inputs, its keys and its answers of `needs` rules from one request, so no
+result can be stored under a key that was made for anything else. Keys of an earlier request only save work: what lies
+below no changed input is copied from them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from hashlib import blake2b
 
 from graphface.cache.fingerprint import Fingerprint, fingerprint
-from graphface.graph.wiring import Step
+from graphface.graph.structure import Step, Structure
 from graphface.node import Operator
 from graphface.values.digest import canonical
 
 KEY_BYTES = 16
 DECLINED = b"declined" + bytes(KEY_BYTES - 8)
 
-Decide = Callable[[Step], frozenset[str]]
-"""Says which lazy ports of a step are declined, as far as that can be told before anything runs."""
+Declined = Mapping[str, str]
+"""The lazy ports that a step declines, each with the reason."""
+
+Decide = Callable[[Step], Declined | None]
+"""Says which lazy ports of a step are declined; None where that cannot be told before something has run."""
 
 
 class Code:
@@ -37,104 +45,111 @@ class Code:
         roots = (operator.function,) if operator.needs is None else (operator.function, operator.needs)
         found = fingerprint(*roots)
         named = canonical((operator.name, operator.version, found.digest))
-        self._prints[operator] = (found, blake2b(named, digest_size=KEY_BYTES).digest())
-        return self._prints[operator][1]
+        digest = blake2b(named, digest_size=KEY_BYTES).digest()
+        self._prints[operator] = (found, digest)
+        return digest
 
 
 CODE = Code()
 
 
-class KeyTable:
-    """The keys of one graph."""
+@dataclass(frozen=True, eq=False)
+class Keys:
+    """The keys of one request.
 
-    def __init__(self, inputs: int, steps: Sequence[Step]) -> None:
-        self._steps = steps
-        self._operators = list({step.operator for step in steps})
-        self._code: dict[Operator, bytes] = {}
-        self._statics: list[bytes] = []
-        self._parents = [tuple(r.slot for a in step.arguments for r in a.refs) for step in steps]
-        self._first = inputs
-        self._declined: dict[int, frozenset[str]] = {}
-        self.keys: list[bytes] = [b""] * (inputs + len(steps))
+    Attributes:
+        by_slot: 16 bytes for each input and step.
+        declined: by slot, for the steps whose `needs` rule could be asked before the run.
+        digests: of the graph inputs; code: of the operators. What the keys were made from.
+    """
 
-    def declined(self, slot: int) -> frozenset[str]:
-        """The lazy ports of a step that were declined before the run."""
-        return self._declined.get(slot, frozenset())
+    by_slot: Sequence[bytes]
+    declined: Mapping[int, Declined]
+    digests: tuple[bytes, ...]
+    code: Mapping[Operator, bytes]
 
-    def update(self, digests: Sequence[bytes], decide: Decide) -> list[bytes]:
-        """The keys for these input digests, by slot.
+
+@dataclass(frozen=True, eq=False)
+class _Row:
+    """What of a step's key does not depend on inputs or code."""
+
+    step: Step
+    operator: Operator
+    settings: bytes
+    parents: tuple[int, ...]
+
+
+class KeyRecipe:
+    """How the keys of a graph are made; nothing in it changes."""
+
+    def __init__(self, structure: Structure) -> None:
+        self._first = len(structure.inputs)
+        self._operators = tuple(dict.fromkeys(step.operator for step in structure.steps))
+        known: dict[tuple[object, ...], bytes] = {}
+        self._rows = tuple(
+            _Row(step, step.operator, _settings(step, known), tuple(r.slot for a in step.arguments for r in a.refs))
+            for step in structure.steps
+        )
+
+    def keys(self, digests: Sequence[bytes], decide: Decide, before: Keys | None = None) -> Keys:
+        """The keys for these input digests, in slot order.
 
         Args:
-            digests: of the graph inputs, in slot order.
-            decide: asked about every step with lazy ports whose inputs changed.
+            decide: asked about every step with lazy ports that an input change reaches.
+            before: keys of the same graph for other inputs.
         """
-        try:
-            return self._update(digests, decide)
-        except BaseException:  # interrupted half-way, the keys are those of no inputs at all
-            self._statics = []
-            raise
-
-    def _update(self, digests: Sequence[bytes], decide: Decide) -> list[bytes]:
-        everything = self._refresh_code()
-        keys, first = self.keys, self._first
-        dirty = bytearray(len(keys))
-        changed = everything
-        for slot, digest in enumerate(digests):
-            if keys[slot] != digest:
-                keys[slot] = digest
-                dirty[slot] = 1
-                changed = True
-        if not changed:
-            return keys
-        if everything:
-            dirty[:] = b"\1" * len(dirty)
-        for index, parents in enumerate(self._parents):
+        digests = tuple(digests)
+        code = {operator: CODE.digest(operator) for operator in self._operators}
+        if before is None or before.code != code:
+            changed = bytearray(b"\1" * (self._first + len(self._rows)))
+            by_slot = [*digests, *(b"" for _ in self._rows)]
+            declined: dict[int, Declined] = {}
+        elif before.digests == digests:
+            return before
+        else:
+            changed = bytearray(old != new for old, new in zip(before.digests, digests, strict=True))
+            changed.extend(bytes(len(self._rows)))
+            by_slot = [*digests, *before.by_slot[self._first :]]
+            declined = dict(before.declined)
+        for slot, row in enumerate(self._rows, self._first):
+            parents = row.parents
             for parent in parents:
-                if dirty[parent]:
+                if changed[parent]:
                     break
             else:
-                if not everything:
+                if not changed[slot]:
                     continue
-            slot = first + index
-            step = self._steps[index]
-            if step.lazy:
-                key = self._lazy_key(step, index, decide)
+            text = code[row.operator] + row.settings
+            if row.step.lazy:
+                text += _lazy_parents(row.step, by_slot, declined, decide)
             else:
-                key = blake2b(
-                    self._statics[index] + b"".join([keys[p] for p in parents]), digest_size=KEY_BYTES
-                ).digest()
-            if key != keys[slot]:
-                keys[slot] = key
-                dirty[slot] = 1
-        return keys
+                text += b"".join([by_slot[parent] for parent in parents])
+            key = blake2b(text, digest_size=KEY_BYTES).digest()
+            changed[slot] = key != by_slot[slot]
+            by_slot[slot] = key
+        return Keys(by_slot, declined, digests, code)
 
-    def _lazy_key(self, step: Step, index: int, decide: Decide) -> bytes:
-        declined = self._declined[step.slot] = decide(step)
-        parts = [self._statics[index]]
-        for argument in step.arguments:
-            if argument.port in declined:
-                parts.append(DECLINED)
-            else:
-                parts += [self.keys[r.slot] for r in argument.refs]
-        return blake2b(b"".join(parts), digest_size=KEY_BYTES).digest()
 
-    def _refresh_code(self) -> bool:
-        """Recompute what does not depend on inputs, where an operator's code changed; whether it did."""
-        code = {operator: CODE.digest(operator) for operator in self._operators}
-        if code == self._code and self._statics:
-            return False
-        self._code = code
-        plain: dict[tuple[Operator, int, tuple[object, ...]], bytes] = {}
-        shapes: dict[tuple[object, ...], bytes] = {}
-        self._statics = []
-        for step in self._steps:
-            shape = tuple((a.port, a.is_list, tuple(r.fields for r in a.refs)) for a in step.arguments)
-            identity = (step.operator, id(step.parameters), shape)
-            if identity not in plain:
-                kept = {n: v for n, v in step.parameters.items() if n not in step.operator.cosmetic}
-                if shape not in shapes:
-                    shapes[shape] = canonical(shape)
-                text = code[step.operator] + canonical(kept) + shapes[shape]
-                plain[identity] = blake2b(text, digest_size=KEY_BYTES).digest()
-            self._statics.append(plain[identity])
-        return True
+def _settings(step: Step, known: dict[tuple[object, ...], bytes]) -> bytes:
+    """A digest of a step's parameters and of which fields its ports take; nodes without settings share theirs."""
+    shape = tuple((a.port, a.is_list, tuple(r.fields for r in a.refs)) for a in step.arguments)
+    identity = (step.operator, id(step.parameters), shape)
+    if identity not in known:
+        kept = {name: value for name, value in step.parameters.items() if name not in step.operator.cosmetic}
+        known[identity] = blake2b(canonical(kept) + canonical(shape), digest_size=KEY_BYTES).digest()
+    return known[identity]
+
+
+def _lazy_parents(step: Step, by_slot: Sequence[bytes], declined: dict[int, Declined], decide: Decide) -> bytes:
+    """The keys behind a step's ports, a constant standing for those that it declines."""
+    answer = decide(step)
+    declined.pop(step.slot, None)
+    if answer is not None:
+        declined[step.slot] = answer
+    parts = []
+    for argument in step.arguments:
+        if answer is not None and argument.port in answer:
+            parts.append(DECLINED)
+        else:
+            parts += [by_slot[r.slot] for r in argument.refs]
+    return b"".join(parts)

@@ -3,116 +3,34 @@
 Everything wrong is found in one pass and reported together: unknown operators, ports and parameters, values out of
 range, a mask plugged into a picture, a required port left open, a cycle. After this nothing about the graph can fail
 but the operators themselves.
-
-A graph's inputs and its steps share one numbering, the *slot*: inputs come first, then the steps in an order where
-every step stands after what it depends on. Evaluation works on slots alone, so a node costs list indexing and no names.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
-from graphface.document.located import Place
 from graphface.document.references import Target
 from graphface.errors import DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
+from graphface.graph.structure import Argument, GraphInput, Ref, Step, Structure, field_type
 from graphface.node import InputPort, Operator
+from graphface.place import Place
 from graphface.registry import Registry
 from graphface.values.port_types import ListOf, PortType, output_fields
 
 
-@dataclass(frozen=True)
-class Ref:
-    """A slot, and the fields taken of its value."""
-
-    slot: int
-    fields: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Argument:
-    """What is plugged into one port."""
-
-    port: str
-    refs: tuple[Ref, ...]
-    is_list: bool
-    lazy: bool
-
-
-@dataclass(frozen=True)
-class GraphInput:
-    slot: int
-    name: str
-    type: PortType
-    default: Setting | None
-    doc: str
-    place: Place
-
-
-@dataclass(eq=False)
-class Step:
-    """One node, ready to run.
-
-    `eager` and `lazy` are the slots behind its ports; `absent` are the ports that get None: nothing is plugged in.
-    `plain` pairs ports with slots where every port is eager and takes one whole value: the common, fast case.
-    """
-
-    slot: int
-    name: str
-    operator: Operator
-    arguments: tuple[Argument, ...]
-    parameters: dict[str, Any]
-    settings: dict[str, Setting]
-    place: Place
-    eager: tuple[int, ...] = field(init=False)
-    lazy: tuple[int, ...] = field(init=False)
-    plain: tuple[tuple[str, int], ...] | None = field(init=False)
-    absent: dict[str, None] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.eager = tuple(dict.fromkeys(r.slot for a in self.arguments if not a.lazy for r in a.refs))
-        self.lazy = tuple(dict.fromkeys(r.slot for a in self.arguments if a.lazy for r in a.refs))
-        simple = all(len(a.refs) == 1 and not (a.lazy or a.is_list or a.refs[0].fields) for a in self.arguments)
-        self.absent = {port: None for port in self.operator.needs_none if all(a.port != port for a in self.arguments)}
-        self.plain = tuple((a.port, a.refs[0].slot) for a in self.arguments) if simple and not self.absent else None
-
-
-@dataclass(frozen=True)
-class Wiring:
-    inputs: dict[str, GraphInput]
-    steps: list[Step]
-    slots: dict[str, int]
-    outputs: dict[str, Ref]
-
-
-def wire(composition: Composition, registry: Registry) -> Wiring:
+def wire(composition: Composition, registry: Registry) -> Structure:
     """Look up, check and order a flat graph.
 
     Raises:
         DocumentError: with every problem found.
     """
     return _Wirer(composition, registry).run()
-
-
-def field_type(annotation: PortType, fields: tuple[str, ...]) -> PortType | None:
-    """The type of `value.field.field...`, or None where an alternative has no such field.
-
-    A field of a value that may be None may be None too: there is nothing to take it from.
-    """
-    current = annotation
-    for name in fields:
-        offered = [output_fields(a) if isinstance(a, type) else {} for a in current.alternatives]
-        if not all(name in ports for ports in offered):
-            return None
-        atoms = dict.fromkeys(atom for ports in offered for atom in ports[name].alternatives)
-        optional = current.optional or any(ports[name].optional for ports in offered)
-        current = PortType(tuple(atoms), optional)
-    return current
 
 
 class _Wirer:
@@ -123,7 +41,7 @@ class _Wirer:
         self._operators: dict[str, Operator | None] = {}
         self._bare: dict[str, dict[str, Any]] = {}
 
-    def run(self) -> Wiring:
+    def run(self) -> Structure:
         inputs = {
             name: GraphInput(slot, name, self._input_type(entry), entry.default, entry.doc, entry.place)
             for slot, (name, entry) in enumerate(self._graph.inputs.items())
@@ -147,7 +65,7 @@ class _Wirer:
                 outputs[name] = Ref(slots[target.name], target.fields)
         if self._problems:
             raise DocumentError(self._problems)
-        return Wiring(inputs, steps, slots, outputs)
+        return Structure(MappingProxyType(inputs), tuple(steps), MappingProxyType(slots), MappingProxyType(outputs))
 
     def _input_type(self, entry: InputEntry) -> PortType:
         try:

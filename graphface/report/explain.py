@@ -1,28 +1,24 @@
 """Why each node ran or did not: the plan of a request beside what was known of the last one.
 
-The first difference between a node's identity then and now (`graphface.report.history`) is the reason. Where nothing differs
-and the value is gone all the same, it was evicted, or its stored form was damaged.
+The first difference between a node's identity then and now (`graphface.report.history`) is the reason. Where nothing
+differs and the value is gone all the same, it was evicted, or its stored form was damaged.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
 
 from graphface.evaluate.evaluator import Evaluator
-from graphface.evaluate.observe import Observer, Record
+from graphface.evaluate.observe import Observer
 from graphface.evaluate.plan import Fate, plan
-from graphface.graph.inputs import Bound
-from graphface.graph.wiring import Ref, Step
+from graphface.evaluate.reason import NO_REASON, Reason
+from graphface.graph.request import Request
+from graphface.graph.structure import Step
+from graphface.record import Record, State
 from graphface.report.history import History, Identity, identities
 from graphface.values.frozen import arrays_in
-
-if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
-
-UNCHANGED = "nothing changed"
-ELSEWHERE = "computed before, by another run or graph"
 
 
 @dataclass(frozen=True)
@@ -35,18 +31,17 @@ class Explained:
 
     name: str
     operator: str
-    fate: Fate | str
-    reason: str
+    fate: Fate | State
+    reason: Reason
     key: str
     milliseconds: float | None = None
     bytes: int | None = None
     warnings: tuple[str, ...] = ()
-    otherwise: str = ""
+    otherwise: Reason = NO_REASON
 
     def as_json(self) -> dict[str, Any]:
-        parts = asdict(self)
-        del parts["otherwise"]
-        return parts
+        parts = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "otherwise"}
+        return {**parts, "reason": str(self.reason), "because": self.reason.as_json()}
 
 
 class Sizes(Observer):
@@ -57,34 +52,32 @@ class Sizes(Observer):
             record.bytes = sum(array.nbytes for _, array in arrays_in(value))
 
 
-def explain(
-    graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref], evaluator: Evaluator, history: History
-) -> list[Explained]:
+def explain(request: Request, evaluator: Evaluator, history: History) -> list[Explained]:
     """Every node with its fate and the reason, before the request is run."""
-    before = history.last(graph.name)
-    now = identities(graph, bound, targets)
+    before = history.last(request.graph.name)
+    now = identities(request)
     changed = {name for name in now if name in before and before[name].key != now[name].key}
     explained = []
-    for entry in plan(graph, bound, targets, evaluator):
+    for entry in plan(request, evaluator):
         known, identity = before.get(entry.name), now.get(entry.name)
-        why = _why(known, identity, changed, evaluator) if identity is not None else ""
+        why = _why(known, identity, changed, evaluator) if identity is not None else NO_REASON
         reason = entry.reason
         if entry.fate == "run":
             reason = why
         elif entry.fate in ("memory", "disk"):
             same = known is not None and identity is not None and known.key == identity.key
-            reason = UNCHANGED if same else ELSEWHERE
+            reason = Reason("unchanged" if same else "elsewhere")
         explained.append(Explained(entry.name, entry.operator, entry.fate, reason, entry.key, otherwise=why))
     return explained
 
 
 def with_results(
-    explained: Sequence[Explained], records: Sequence[Record], said: Sequence[str] = ()
+    explained: Sequence[Explained], records: Sequence[Record], damaged: Sequence[str] = ()
 ) -> list[Explained]:
     """The same after the run: what happened, in which time and with how many bytes.
 
     Args:
-        said: what the disk tier reported; an entry it dropped as damaged is named there by its key.
+        damaged: what the disk tier reported; an entry it dropped is named there by its key.
     """
     by_name = {record.name: record for record in records}
     by_key = {record.key.hex()[:8]: record for record in records if record.state != "declined"}
@@ -93,83 +86,84 @@ def with_results(
         record = by_name.get(entry.name)
         twin = by_key.get(entry.key) if entry.fate != "skipped" else None
         if record is not None:
-            joined.append(_with_record(entry, record, said))
+            joined.append(_with_record(entry, record, damaged))
         elif twin is not None:
-            joined.append(_resolved(entry, twin.state, f"equal to {twin.name}, which was evaluated for both"))
+            joined.append(_resolved(entry, twin.state, Reason("twin", node=twin.name)))
         elif entry.fate == "maybe":
-            joined.append(_resolved(entry, "skipped", _declined_reason(entry, records)))
+            joined.append(_resolved(entry, "skipped", _declined(entry.reason.node, records)))
         elif entry.fate == "skipped":
             joined.append(entry)
         else:
-            joined.append(_resolved(entry, "skipped", "what needed it failed, or was memoized meanwhile"))
+            joined.append(_resolved(entry, "skipped", Reason("not reached")))
     return joined
 
 
-def _with_record(entry: Explained, record: Record, said: Sequence[str]) -> Explained:
+def _with_record(entry: Explained, record: Record, damaged: Sequence[str]) -> Explained:
     ran = record.state in ("ran", "failed")
     reason = entry.reason if entry.fate in ("run", "memory", "disk") else entry.otherwise
-    if record.state in ("failed", "blocked"):
-        reason = record.reason or "a node above it failed"
-    elif ran and any(record.key.hex() in message for message in said):
-        reason = "its stored result was damaged"
+    if record.state == "failed":
+        reason = Reason("failed", new=record.reason)
+    elif record.state == "blocked":
+        reason = Reason("blocked")
+    elif ran and any(record.key.hex() in message for message in damaged):
+        reason = Reason("damaged")
     elif ran and entry.fate in ("memory", "disk"):
-        reason = "its stored result was gone when it was needed"
+        reason = Reason("gone")
     elif not ran and entry.fate not in ("memory", "disk"):
-        reason = ELSEWHERE
+        reason = Reason("elsewhere")
     milliseconds = record.seconds * 1e3 if ran else None
     size = record.bytes if record.state in ("ran", "memory", "disk") else None
     warnings = tuple(record.warnings)
     return Explained(entry.name, entry.operator, record.state, reason, entry.key, milliseconds, size, warnings)
 
 
-def _resolved(entry: Explained, fate: str, reason: str) -> Explained:
+def _resolved(entry: Explained, fate: Fate | State, reason: Reason) -> Explained:
     return Explained(entry.name, entry.operator, fate, reason, entry.key)
 
 
-def _declined_reason(entry: Explained, records: Sequence[Record]) -> str:
-    """What the node that was to decide said; the plan's reason begins with its name."""
-    said = (
-        record.reason
-        for record in records
-        if record.state == "declined" and entry.reason.startswith(f"{record.name.rpartition('.')[0]} decides")
-    )
-    return next(said, "its node declined it, or needed it no more")
+def _declined(decider: str, records: Sequence[Record]) -> Reason:
+    """What the node that was to decide said."""
+    for record in records:
+        node, _, port = record.name.rpartition(".")
+        if record.state == "declined" and node == decider:
+            return Reason("declined", node=node, port=port, new=record.reason)
+    return Reason("not reached")
 
 
-def _why(before: Identity | None, now: Identity, changed: set[str], evaluator: Evaluator) -> str:
+def _why(before: Identity | None, now: Identity, changed: set[str], evaluator: Evaluator) -> Reason:
     """The first difference between a node's last identity and this one; where there is none, how its value got lost."""
     if before is None:
-        return "first seen"
+        return Reason("first seen")
     if before.key == now.key:
         return _lost(before, evaluator)
     if before.operator != now.operator:
-        return f"operator changed from {before.operator} to {now.operator}"
+        return Reason("operator", old=before.operator, new=now.operator)
     if before.code != now.code:
-        return "operator code changed"
+        return Reason("code")
     for name in {**before.parameters, **now.parameters}:
         old, new = before.parameters.get(name), now.parameters.get(name)
         if old != new:
-            return f"parameter {name} changed from {old} to {new}"
+            return Reason("parameter", parameter=name, old=str(old), new=str(new))
     for port in {**before.inputs, **now.inputs}:
         if before.inputs.get(port) != now.inputs.get(port):
             return _input_change(port, before.inputs.get(port, []), now.inputs.get(port, []), changed)
-    return "which lazy inputs it takes changed"
+    return Reason("lazy ports")
 
 
-def _lost(before: Identity, evaluator: Evaluator) -> str:
+def _lost(before: Identity, evaluator: Evaluator) -> Reason:
     if before.failed:
-        return "it failed when it last ran"
+        return Reason("failed before")
     if evaluator.memory is None and evaluator.disk is None:
-        return "no cache in use"
+        return Reason("no cache")
     evicted = evaluator.memory is not None and bytes.fromhex(before.key) in evaluator.memory.evicted
     if evicted or (evaluator.disk is not None and before.stored):
-        return "evicted"
-    return "not kept (too large for the cache, or nothing that it can hold)"
+        return Reason("evicted")
+    return Reason("not kept")
 
 
-def _input_change(port: str, before: list[list[str]], now: list[list[str]], changed: set[str]) -> str:
+def _input_change(port: str, before: list[list[str]], now: list[list[str]], changed: set[str]) -> Reason:
     there, here = [name for name, _ in before], [name for name, _ in now]
     if there != here:
-        return f"port {port} is connected to {', '.join(here) or 'nothing'}, was {', '.join(there) or 'nothing'}"
+        return Reason("wiring", port=port, old=", ".join(there) or "nothing", new=", ".join(here) or "nothing")
     culprit = next(name for (name, new), (_, old) in zip(now, before, strict=True) if new != old).partition(".")[0]
-    return f"{culprit} changed above it" if culprit in changed else f"input {culprit} changed"
+    return Reason("node above" if culprit in changed else "input", node=culprit, port=port)

@@ -13,20 +13,16 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from graphface.cache.disk import DiskTier
 from graphface.cache.folder import MARK
 from graphface.errors import UnwritableFile
-from graphface.evaluate.observe import Observer, Record
-from graphface.graph.inputs import Bound
-from graphface.graph.keys import CODE
-from graphface.graph.wiring import Ref
+from graphface.evaluate.observe import Observer
+from graphface.graph.demand import demanded, reached
+from graphface.graph.request import Request
+from graphface.record import Record
 from graphface.values.writing import beside
-
-if TYPE_CHECKING:
-    from graphface.cache.disk import DiskTier
-    from graphface.graph.graph import Graph
-    from graphface.node import Operator
 
 
 @dataclass
@@ -46,16 +42,13 @@ class Identity:
     stored: bool = True
 
 
-def identities(graph: Graph, bound: Mapping[str, Bound], targets: Mapping[str, Ref]) -> dict[str, Identity]:
-    """The identity of every node that `targets` may need."""
-    keys = graph.keys(bound)
-    names = [*graph.inputs, *(step.name for step in graph.steps)]
-    code: dict[Operator, str] = {}
+def identities(request: Request) -> dict[str, Identity]:
+    """The identity of every node that the request's targets may need."""
+    names, keys = request.graph.names, request.keys.by_slot
+    code = {operator: digest.hex() for operator, digest in request.keys.code.items()}
     found = {}
-    for step in graph.steps_behind(targets.values()):
+    for step in request.steps():
         operator = step.operator
-        if operator not in code:
-            code[operator] = CODE.digest(operator).hex()
         kept = {n: _text(v) for n, v in step.parameters.items() if n not in operator.cosmetic}
         inputs = {
             a.port: [[".".join((names[r.slot], *r.fields)), keys[r.slot].hex()] for r in a.refs] for a in step.arguments
@@ -112,28 +105,24 @@ class History:
 
 
 class Remember(Observer):
-    """Lets a history learn from the runs of one request, also from one that failed or was interrupted."""
+    """Lets a history learn from one run, also from one that failed or was interrupted."""
 
-    def __init__(
-        self,
-        history: History,
-        graph: Graph,
-        bound: Mapping[str, Bound],
-        targets: Mapping[str, Ref],
-        disk: DiskTier | None,
-    ) -> None:
+    def __init__(self, history: History, disk: DiskTier | None) -> None:
         self._history = history
-        self._graph = graph
-        self._bound = bound
-        self._targets = targets
         self._disk = disk
+        self._request: Request | None = None
+
+    def run_started(self, request: Request) -> None:
+        self._request = request
 
     def run_finished(self, records: Sequence[Record]) -> None:
-        now = identities(self._graph, self._bound, self._targets)
+        if self._request is None:
+            return
+        now = identities(self._request)
         by_key = {record.key.hex(): record for record in records if record.state != "declined"}
         evicting: bool | None = None
         taken = {}
-        for name in _had(self._graph, self._targets, records, self._graph.keys(self._bound)):
+        for name in _had(self._request, records):
             identity = taken[name] = now[name]
             record = by_key.get(identity.key)
             if record is None:
@@ -142,35 +131,38 @@ class Remember(Observer):
             if self._disk is not None and record.state == "ran" and not self._disk.contains(record.key):
                 evicting = self._disk.stats().evicted > 0 if evicting is None else evicting
                 identity.stored = evicting
-        self._history.learn(self._graph.name, taken)
+        self._history.learn(self._request.graph.name, taken)
 
 
-def _had(graph: Graph, targets: Mapping[str, Ref], records: Sequence[Record], keys: Sequence[bytes]) -> list[str]:
+def _had(request: Request, records: Sequence[Record]) -> list[str]:
     """The nodes whose values a run had, in its hands or behind a memoized value, and those that failed.
 
     What was blocked, declined or not reached before an interruption was not had: the next run is the first to see it.
     """
-    first = len(graph.inputs)
     states = {record.key: record.state for record in records if record.state != "declined"}
-    declined = {record.name for record in records if record.state == "declined"}
-    names: dict[str, None] = {}
-    seen: dict[int, bool] = {}
-    stack = [(ref.slot, False) for ref in targets.values()]
-    while stack:
-        slot, behind = stack.pop()
-        if slot < first or seen.get(slot, False) or (slot in seen and not behind):
-            continue
-        seen[slot] = behind
-        step, state = graph.steps[slot - first], states.get(keys[slot])
-        if behind or state in ("ran", "memory", "disk", "failed"):
-            names[step.name] = None
-        above = list(step.eager)
-        if state == "ran":
-            wanted = (a for a in step.arguments if a.lazy and f"{step.name}.{a.port}" not in declined)
-            above += [ref.slot for argument in wanted for ref in argument.refs]
-        memoized = state in ("memory", "disk") or (behind and state is None)
-        stack.extend((parent, memoized) for parent in above)
-    return list(names)
+    declined: dict[str, dict[str, str]] = {}
+    for record in records:
+        if record.state == "declined":
+            node, _, port = record.name.rpartition(".")
+            declined.setdefault(node, {})[port] = record.reason
+    had: set[int] = set()
+
+    def above(slot: int) -> tuple[int, ...]:
+        """What stands above a slot in the run; of one that did not run, what was surely had before."""
+        step = request.graph.step(slot)
+        if step is None:
+            return ()
+        state = states.get(request.key(slot))
+        return demanded(step, declined.get(step.name, {}) if state == "ran" else None)[0]
+
+    def memoized(slot: int) -> bool:
+        return states.get(request.key(slot)) in ("memory", "disk")
+
+    asked = reached((ref.slot for ref in request.targets.values()), above)
+    had.update(slot for slot in asked if states.get(request.key(slot)) in ("ran", "memory", "disk", "failed"))
+    had |= reached((slot for slot in asked if memoized(slot)), above)
+    steps = (request.graph.step(slot) for slot in sorted(had))
+    return [step.name for step in steps if step is not None]
 
 
 def _text(value: Any) -> str:

@@ -12,10 +12,12 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
-from graphface.evaluate.observe import Observer, Record
+from graphface.evaluate.observe import Observer
 from graphface.evaluate.plan import Planned
-from graphface.graph.wiring import Step
+from graphface.graph.request import Request
+from graphface.graph.structure import Step
 from graphface.node import Operator
+from graphface.record import Record
 from graphface.report.explain import Explained
 from graphface.report.timings import Timings
 
@@ -25,8 +27,8 @@ _FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yell
 class ProgressBar(Observer):
     """A bar that grows with time, naming the node that runs; silent where standard error is not a terminal.
 
-    A node's share of the bar is what its operator took in earlier runs (`graphface.report.timings`), so that the time left
-    means something when one node takes as long as all others.
+    A node's share of the bar is what its operator took in earlier runs (`graphface.report.timings`), so that the time
+    left means something when one node takes as long as all others.
     """
 
     def __init__(self, title: str = "") -> None:
@@ -47,10 +49,10 @@ class ProgressBar(Observer):
     ) -> None:
         self._progress.stop()
 
-    def run_started(self, steps: Sequence[Step]) -> None:
+    def run_started(self, request: Request) -> None:
         if self._task is not None:
             self._progress.remove_task(self._task)
-        total = sum(self._timings.expected(step.operator.name) for step in steps)
+        total = sum(self._timings.expected(step.operator.name) for step in request.steps())
         self._task = self._progress.add_task(self._title, total=total)
 
     def node_started(self, name: str, step: Step | None) -> None:
@@ -84,7 +86,7 @@ def print_plan(planned: Sequence[Planned]) -> None:
     table = _table("node", "operator", "fate", "key", "why")
     for entry in planned:
         style = _FATE_STYLES[entry.fate]
-        table.add_row(entry.name, entry.operator, f"[{style}]{entry.fate}[/]", entry.key, escape(entry.reason))
+        table.add_row(entry.name, entry.operator, f"[{style}]{entry.fate}[/]", entry.key, escape(str(entry.reason)))
     _console().print(table)
 
 
@@ -123,7 +125,7 @@ def print_explained(explained: Sequence[Explained]) -> None:
         fate = f"[{style}]{entry.fate}[/]" if style else entry.fate
         ms = f"{entry.milliseconds:.1f}" if entry.milliseconds is not None else ""
         size = f"{entry.bytes / 1e6:.2f}" if entry.bytes else ""
-        table.add_row(entry.name, entry.operator, fate, ms, size, entry.key, escape(entry.reason))
+        table.add_row(entry.name, entry.operator, fate, ms, size, entry.key, escape(str(entry.reason)))
     _console().print(table)
 
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from graphface.evaluate.observe import Record
+from graphface.record import Record
 
 _UNKNOWN = 0.05
 """Seconds taken for an operator never seen."""

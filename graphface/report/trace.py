@@ -15,17 +15,14 @@ import tracemalloc
 from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from graphface.document.effective import effective
-from graphface.evaluate.observe import Observer, Record
-from graphface.graph.inputs import Bound
-from graphface.graph.wiring import Step
+from graphface.evaluate.observe import Observer
+from graphface.graph.request import Request
+from graphface.graph.structure import Step
+from graphface.record import Record
 from graphface.values.frozen import describe
 from graphface.values.writing import beside
-
-if TYPE_CHECKING:
-    from graphface.graph.graph import Graph
 
 _LIBRARIES = ("graphface", "numpy", "opencv-contrib-python-headless", "scipy", "scikit-image", "pydantic", "xxhash")
 
@@ -41,17 +38,19 @@ class Trace(Observer):
     def __init__(self, *, peaks: bool = False) -> None:
         self.records: list[Record] = []
         self.summaries: dict[str, str] = {}
-        self.parameters: dict[str, dict[str, Any]] = {}
+        self.parameters: dict[str, Mapping[str, Any]] = {}
         self.threads: dict[str, str] = {}
         self.peaks: dict[str, int] = {}
+        self._request: Request | None = None
         self._measure = peaks
         self._tracing = False
         self._before: dict[str, int] = {}
 
-    def run_started(self, steps: Sequence[Step]) -> None:
+    def run_started(self, request: Request) -> None:
+        self._request = request
         for held in (self.summaries, self.threads, self.peaks):
             held.clear()
-        self.parameters = {step.name: step.parameters for step in steps}
+        self.parameters = {step.name: step.parameters for step in request.steps()}
         if self._measure and not tracemalloc.is_tracing():
             tracemalloc.start()
             self._tracing = True
@@ -74,25 +73,33 @@ class Trace(Observer):
             tracemalloc.stop()
             self._tracing = False
 
-    def as_json(self, graph: Graph, bound: Mapping[str, Bound]) -> dict[str, Any]:
-        """Versions, graph, inputs and every node of the run; a parameter that JSON does not know is its `repr`."""
+    def as_json(self) -> dict[str, Any]:
+        """Versions, graph, inputs and every node of the run; a parameter that JSON does not know is its `repr`.
+
+        Raises:
+            RuntimeError: no run was followed.
+        """
+        if self._request is None:
+            raise RuntimeError("this trace followed no run")
+        graph = self._request.graph
+        inputs = {b.name: {"origin": b.origin, "digest": b.digest.hex()} for b in self._request.bound if b is not None}
         return {
             "versions": {"python": platform.python_version(), **_versions()},
             "platform": f"{sys.platform} {platform.machine()}",
             "graph": graph.name,
-            "document": effective(graph, origins=False),
-            "inputs": {name: {"origin": b.origin, "digest": b.digest.hex()} for name, b in bound.items()},
+            "document": graph.effective(origins=False),
+            "inputs": inputs,
             "nodes": [self._node(record) for record in self.records],
         }
 
-    def write(self, path: Path, graph: Graph, bound: Mapping[str, Bound]) -> None:
+    def write(self, path: Path) -> None:
         """Write `as_json` to a file, whole or not at all.
 
         Raises:
             UnwritableFile: the folder cannot be written to.
         """
         with beside(path) as temporary:
-            temporary.write_text(json.dumps(self.as_json(graph, bound), indent=1), encoding="utf-8")
+            temporary.write_text(json.dumps(self.as_json(), indent=1), encoding="utf-8")
 
     def _node(self, record: Record) -> dict[str, Any]:
         return {

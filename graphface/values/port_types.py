@@ -97,6 +97,7 @@ class ListOf:
 
 
 Atom = ArrayType | ListOf | type
+Reader = Callable[[Path], Any]
 
 
 @dataclass(frozen=True)
@@ -158,6 +159,11 @@ def port_type(annotation: Any) -> PortType:
     atoms: list[Atom] = []
     optional = _collect(annotation, atoms)
     return PortType(tuple(dict.fromkeys(atoms)), optional)
+
+
+def reader_of(declared: PortType) -> Reader | None:
+    """How a value of this type is read from a file, if it can be."""
+    return next((r for a in declared.alternatives if (r := getattr(a, "from_file", None)) is not None), None)
 
 
 def is_lazy(annotation: Any) -> bool:

@@ -384,7 +384,7 @@ def transfer(
     """Faithfulness, realism and predictability of makeup on pairs of photographs; with --table, their picture."""
     from graphface.nodes.commands.transfer_criteria import Criteria, criteria
     from graphface.nodes.commands.transfer_table import transfer_table
-    from graphface.nodes.image import write_picture
+    from graphface.nodes.io.image_write import write_picture
     from graphface.report.terminal import print_table
 
     inputs, others = _files(photos), _files(references)

@@ -32,7 +32,7 @@ def demo(
     import os
 
     from graphface import Evaluator, MemoryTier, load
-    from graphface.nodes.image import write_picture
+    from graphface.nodes.io.image_write import write_picture
     from graphface.report.terminal import ProgressBar, print_times, print_warnings
     from graphface.values.writing import make_folder, write_output
 

@@ -27,7 +27,7 @@ def gallery(
     from graphface import Evaluator, MemoryTier, load
     from graphface.nodes.commands.demo import astronaut
     from graphface.nodes.commands.sheet import around_face, contact_sheet
-    from graphface.nodes.image import write_picture
+    from graphface.nodes.io.image_write import write_picture
     from graphface.nodes.types import Image
     from graphface.values.writing import make_folder, write_output
 

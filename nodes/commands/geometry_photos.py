@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from graphface import GraphfaceError, UnreadableFile
 from graphface.nodes.commands.geometry_truth import landmark_error
-from graphface.nodes.image import read_image
+from graphface.nodes.geometry.morphable import morphable
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.morphable.model import MorphableModel
-from graphface.nodes.morphable.morphable import morphable
 from graphface.nodes.morphable.pose import yaw_pitch_roll
 from graphface.nodes.types import FloatArray, Landmarks
 

@@ -18,14 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.commands.heads import LIGHTS, heads_of
-from graphface.nodes.image import read_image
+from graphface.nodes.geometry.average import average
+from graphface.nodes.geometry.facemesh import facemesh
+from graphface.nodes.geometry.morphable import morphable
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
-from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
-from graphface.nodes.metrics import mean_angle
-from graphface.nodes.morphable.facemesh import facemesh
+from graphface.nodes.metrics.geometry import mean_angle
 from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
-from graphface.nodes.morphable.morphable import average, morphable
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import Landmarks, Mesh
 
 _FAR = 1e3

@@ -15,10 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from graphface.nodes.colour import decode_srgb
+from graphface.nodes.color import decode_srgb
 from graphface.nodes.commands.heads import heads_of
-from graphface.nodes.image import read_image
-from graphface.nodes.metrics import direction_angle, lmse, si_mse
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.metrics.geometry import direction_angle
+from graphface.nodes.metrics.pictures import lmse, si_mse
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask, Normals
 
 LIGHTS = ("frontal", "left45", "right45", "top", "left80_hard", "ambient")
@@ -106,12 +107,12 @@ def light_truth(
     Raises:
         UnreadableFile: there are no heads at `data`/truth.
     """
+    from graphface.nodes.geometry.facemesh import facemesh as build_mesh
     from graphface.nodes.intrinsic.intensity import intensity
     from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
     from graphface.nodes.masks.face import face as face_mask
-    from graphface.nodes.morphable.facemesh import facemesh as build_mesh
-    from graphface.nodes.render.surface import rasterize
-    from graphface.nodes.sh import fit
+    from graphface.nodes.sh.fit import fit
+    from graphface.nodes.surface.rasterize import rasterize
 
     for head in heads(data):
         frontal = head.photo("frontal")

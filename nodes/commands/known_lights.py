@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphface import UnreadableFile
-from graphface.nodes.colour import decode_srgb
+from graphface.nodes.color import decode_srgb
 from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.commands.truth import LIGHTS, known_scene
-from graphface.nodes.image import read_image, write_image
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_image
 from graphface.nodes.render.irradiance import irradiance
-from graphface.nodes.render.scene import DirectionalLight, Scene
-from graphface.nodes.types import FloatArray, Image
+from graphface.nodes.types import DirectionalLight, FloatArray, Image, Scene
 from graphface.values.writing import make_folder
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from graphface import UnreadableFile
 from graphface.nodes.commands.label_lessons import Lesson, head_lessons, photo_lessons
 from graphface.nodes.commands.label_training import Examples, folded, trained
 from graphface.nodes.commands.label_variations import example
-from graphface.nodes.masks.shown import CHANNELS
+from graphface.nodes.masks.network_input import CHANNELS
 from graphface.nodes.masks.upright import HEIGHT, WIDTH
 
 _SUFFIXES = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"}

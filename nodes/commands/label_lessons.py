@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from graphface import GraphfaceError, warn
 from graphface.nodes.commands.heads import LIGHTS, heads_of
 from graphface.nodes.commands.segmentation_truth import true_labels
-from graphface.nodes.image import read_image
+from graphface.nodes.geometry.facemesh import facemesh as build_mesh
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
-from graphface.nodes.landmarks.network import network_pixels
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.network import network, window_chances
 from graphface.nodes.masks.upright import HEIGHT, WIDTH, Upright, upright_of
-from graphface.nodes.morphable.facemesh import facemesh as build_mesh
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.network_pixels import network_pixels
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks
 
 Bytes = NDArray[np.uint8]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from graphface import UsageError
 from graphface.nodes.masks.label_network import WIDTHS
-from graphface.nodes.masks.shown import CHANNELS
+from graphface.nodes.masks.network_input import CHANNELS
 
 BATCH, RATE, DECAY = 8, 4e-3, 1e-2
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.random import Generator
 
 from graphface.nodes.commands.label_lessons import Bytes, Lesson
-from graphface.nodes.masks.shown import mirror_image, shown
+from graphface.nodes.masks.network_input import mirror_image, shown
 from graphface.nodes.masks.upright import HEIGHT, UNIT, WIDTH, upright_of
 from graphface.nodes.types import FloatArray, Landmarks
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from graphface import GraphfaceError, UnreadableFile, warn
 from graphface.assets.asset import AssetUnavailable
-from graphface.nodes.image import read_image
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh
 from graphface.nodes.morphable.learn import Lesson, learn_model
 from graphface.nodes.morphable.model import MorphableModel

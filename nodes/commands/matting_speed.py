@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.commands.segmentation_truth import segment_photo
-from graphface.nodes.image import read_image
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.matting.band import band_of, likeliest_alphas
 from graphface.nodes.matting.closed_form import closed_form

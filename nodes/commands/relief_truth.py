@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.commands.heads import heads_of
-from graphface.nodes.image import read_image
+from graphface.nodes.geometry.morphable import morphable
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh
-from graphface.nodes.metrics import mean_angle
+from graphface.nodes.metrics.geometry import mean_angle
 from graphface.nodes.morphable.model import MorphableModel
-from graphface.nodes.morphable.morphable import morphable
 from graphface.nodes.morphable.relief import Difference, learned_relief, normal_difference, with_relief
 from graphface.nodes.morphable.storage import refined
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import Image, Landmarks
 
 _LEVELS = 1

@@ -14,9 +14,9 @@ import numpy as np
 from graphface import load
 from graphface.evaluate.session import Session
 from graphface.nodes.commands.gallery import shipped_scenes
-from graphface.nodes.image import image_from_array, read_image
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.types import Image
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.types import Image, Scene
+from graphface.nodes.types.image import image_from_array
 
 _ARRAYS = 5
 """Pictures of three channels that recombining must read or write: photo, albedo, detail's two parts, result."""

@@ -15,10 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.commands.heads import heads_of
-from graphface.nodes.image import read_image
+from graphface.nodes.geometry.facemesh import facemesh as build_mesh
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.classify import classify
-from graphface.nodes.masks.cue import cue, cued_hair
+from graphface.nodes.masks.cue import cue
+from graphface.nodes.masks.cued_hair import cued_hair
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
@@ -29,8 +31,7 @@ from graphface.nodes.matting.closed_form import closed_form
 from graphface.nodes.matting.guided import guided
 from graphface.nodes.matting.knn import knn
 from graphface.nodes.matting.none import none
-from graphface.nodes.morphable.facemesh import facemesh as build_mesh
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
 Labeller = Callable[[Image, Landmarks], Segmentation]

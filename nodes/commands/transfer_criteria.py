@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from graphface import Evaluator, GraphfaceError, MemoryTier, load
-from graphface.nodes.colour import channel_mean
+from graphface.nodes.color import channel_mean
 from graphface.nodes.commands.transfer_truth import reinhard
-from graphface.nodes.makeup.features import EYES, LIPS, MOUTH, NOSE, Features
-from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
+from graphface.nodes.makeup.features import EYES, LIPS, MOUTH, NOSE
+from graphface.nodes.types import Features, FloatArray, Image, Landmarks, Mask
 
 _FEATURE_POINTS = sorted({*EYES[0], *EYES[1], *LIPS, *MOUTH, *NOSE})
 _ASKED = (

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphface import Evaluator, MemoryTier, UnreadableFile, load
-from graphface.nodes.image import read_image, write_image
-from graphface.nodes.metrics import psnr
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_image
+from graphface.nodes.metrics.pictures import psnr
 from graphface.nodes.types import FloatArray, Image, Mask
 
 if TYPE_CHECKING:
@@ -116,7 +117,7 @@ def _runs(graph: Graph, evaluator: Evaluator, memory: _Representations) -> Metho
 
 def _pasted(evaluator: Evaluator) -> Method:
     """The reference through the meshes, pasted as it is."""
-    from graphface.nodes.warp.resample import fetched
+    from graphface.nodes.resample import fetched
 
     graph = load("makeup", replace={"pair/flow": "flow.none"}, set={"pair/meshes.hidden": "input"})
     asked = ["pair/meshes", "pair.working", "pair.reference_working"]

@@ -10,27 +10,32 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
-from graphface.nodes import blend, detail, sh
-from graphface.nodes.colour import decode_srgb, encode_srgb
+from graphface.nodes.blend.recombine import recombine
+from graphface.nodes.color import decode_srgb, encode_srgb
 from graphface.nodes.commands.heads import heads_of
-from graphface.nodes.image import read_image, write_image
+from graphface.nodes.geometry.facemesh import facemesh as build_mesh
 from graphface.nodes.intrinsic.intensity import intensity
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.face import face as face_mask
-from graphface.nodes.metrics import mean_angle, psnr, si_psnr
-from graphface.nodes.morphable.facemesh import facemesh as build_mesh
+from graphface.nodes.metrics.geometry import mean_angle
+from graphface.nodes.metrics.pictures import psnr, si_psnr
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.samples import samples
-from graphface.nodes.render.scene import DirectionalLight, Scene
 from graphface.nodes.render.shade import shade
-from graphface.nodes.render.spread import spread, surroundings
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.types import Encoding, Image
+from graphface.nodes.render.spread import spread
+from graphface.nodes.render.surroundings import surroundings
+from graphface.nodes.sh.fit import fit as fit_light
+from graphface.nodes.sh.render import render as render_light
+from graphface.nodes.surface.rasterize import rasterize
+from graphface.nodes.types import DirectionalLight, Encoding, Image, Scene
 from graphface.values.writing import make_folder
 
 LIGHTS = ("left45", "right45", "top", "left80_hard", "red_blue", "ambient")
@@ -107,10 +112,11 @@ def _relight_head(
     mask = face_mask(surface, landmarks)
     photo = taken if encoding == "srgb" else taken.with_pixels(decode_srgb(taken.pixels), "linear")
     intrinsic = intensity(photo)
-    estimated = sh.render(sh.fit(intrinsic.shading, normals, mask).light, normals)
+    estimated = render_light(fit_light(intrinsic.shading, normals, mask).light, normals)
     around, points = surroundings(mask, surface, landmarks), samples(surface, estimated, mask, photo)
     old = spread(estimated, around)
-    leftover = getattr(detail, method)(photo, intrinsic.albedo, old)
+    detail_method = getattr(import_module(f"graphface.nodes.detail.{method}"), method)
+    leftover = detail_method(photo, intrinsic.albedo, old)
 
     covered = surface.coverage > 0
     unit = float(np.average(irradiance(known_scene(lights[source]), normals[covered]), weights=mask[covered]))
@@ -122,7 +128,7 @@ def _relight_head(
     for light in LIGHTS if source == "frontal" else [name for name in ("frontal", *LIGHTS) if name != source]:
         scene = known_scene(lights[light], unit)
         new = spread(shade(points, scene, estimated), around)
-        relit = blend.recombine(photo, intrinsic.albedo, new, leftover, shoulder=shoulder)
+        relit = recombine(photo, intrinsic.albedo, new, leftover, shoulder=shoulder)
         result = taken.with_pixels(relit.pixels if encoding == "srgb" else encode_srgb(relit.pixels))
         write_image(result, out / f"{light}.png")
         yield _compared(head, light, result, taken, face_label, normal_error)

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from graphface.nodes.commands.sheet import Picture, contact_sheet
-from graphface.nodes.image import read_image, write_picture
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.types import Image
 
 

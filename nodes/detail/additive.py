@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphface import node
-from graphface.nodes.detail.rendering import rendering
+from graphface.nodes.rendering import rendering
 from graphface.nodes.types import Albedo, DetailMap, Image, Shading
 
 

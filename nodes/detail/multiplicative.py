@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.detail.rendering import rendering
+from graphface.nodes.rendering import rendering
 from graphface.nodes.types import Albedo, DetailMap, Image, Shading
 
 

@@ -26,8 +26,8 @@ from pydantic import Field
 
 from graphface import node, warn
 from graphface.nodes.blur import blurred
-from graphface.nodes.colour import channel_mean
-from graphface.nodes.detail.rendering import in_three_channels, rendering
+from graphface.nodes.color import channel_mean, in_three_channels
+from graphface.nodes.rendering import rendering
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Landmarks, Shading
 

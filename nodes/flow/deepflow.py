@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from graphface import node
 from graphface.nodes.flow.refine import Length, Refinement, Resolution, refined
-from graphface.nodes.types import Image, Landmarks
-from graphface.nodes.warp.correspondence import Correspondence
+from graphface.nodes.types import Correspondence, Image, Landmarks
 
 
 @node("flow.deepflow")

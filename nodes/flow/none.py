@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from graphface import node
-from graphface.nodes.types import Image, Landmarks
-from graphface.nodes.warp.correspondence import Correspondence
+from graphface.nodes.types import Correspondence, Image, Landmarks
 
 
 @node("flow.none")

@@ -1,7 +1,7 @@
 """From the flow between two pictures to a better correspondence, or to none where it cannot be trusted.
 
 The reference, carried over by the meshes, and the input show the same face in different paint: what should match are
-the edges of eyes, brows, nostrils and lips, not their colours. So both are reduced to the logarithm of intensity, free
+the edges of eyes, brows, nostrils and lips, not their colors. So both are reduced to the logarithm of intensity, free
 of its local mean and of unit local contrast. Flow is computed both ways; where the two disagree, where the pictures
 still do not match after it, or where there is nothing to match, it has no weight, and a smooth field through what is
 left moves the rest along. With no weight at all the meshes win.
@@ -18,30 +18,39 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import warn
-from graphface.nodes.colour import channel_mean
+from graphface.nodes.color import channel_mean
+from graphface.nodes.resample import fetched
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Image, Landmarks
-from graphface.nodes.warp.correspondence import Correspondence
-from graphface.nodes.warp.resample import fetched
+from graphface.nodes.types import Correspondence, FloatArray, Image, Landmarks
 
 Flow = Callable[[NDArray[np.uint8], NDArray[np.uint8]], Any]
 """(from, to), both uint8 H x W, to displacements H x W x 2: to[x + flow(x)] looks like from[x]."""
 
+
 Length = Annotated[float, Field(gt=0, le=2)]
+
+
 Resolution = Annotated[int, Field(ge=16, le=400)]
+
 
 _FLOOR = 0.05
 """Intensity below which differences are noise."""
 
+
 _CONTRAST_FLOOR = 0.02
+
+
 _CONTRAST = 45.0
 """Grey levels for one standard deviation of local contrast."""
+
 
 _WORTH = 0.02
 """Share of the face that must be seen by its mirror image only, for that to be matched as well."""
 
+
 _RESAMPLED = 0.02
 """Mean square difference that two copies of one picture have once one of them was fetched: no reason to move."""
+
 
 _PRIOR_WEIGHT = 0.15
 """Weight of "no displacement" beside that of the flow, where flow has full confidence: 1."""

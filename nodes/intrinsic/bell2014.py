@@ -19,6 +19,7 @@ PLACE, INTENSITY, COLOR = 0.1, 0.12, 0.025
 """The paper's theta_p (of the diagonal), theta_l and theta_c: how near, how alike in log intensity, how alike in
 chromaticity two pixels are that are asked to share a reflectance."""
 
+
 _ALIKE, _SMOOTH, _HUE = 20.0, 4.0, 30.0
 """Weights of the three terms: shared reflectance, smooth shading, hue of the label. Set on the synthetic patchwork of
 tests/nodes/intrinsic, to within a factor of 2."""

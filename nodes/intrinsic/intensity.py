@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.colour import channel_mean
+from graphface.nodes.color import channel_mean
 from graphface.nodes.intrinsic.logarithm import finite_pixels
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
@@ -26,13 +26,13 @@ def intensity(
     """s(x) = intensity of I(x), rho(x) = I(x) / s(x) (paper, section 2, "Intrinsic images").
 
     It takes small dark patches for shadow. That is wrong for the albedo and right for editing: what is dark because of
-    relief must not travel with the colour.
+    relief must not travel with the color.
 
     Args:
         photo: in any encoding; both maps are in the same one.
         mask: takes no part; the family has it.
         measure: "mean" of R, G and B; "luma", their Rec. 709 weighting; "value", the largest (then albedo <= 1).
-        floor: the least shading. Pixels darker than it get a dark albedo instead, so that the colour noise of black is
+        floor: the least shading. Pixels darker than it get a dark albedo instead, so that the color noise of black is
             not blown up, and black things stay black under any light.
 
     Returns:

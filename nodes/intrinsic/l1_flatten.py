@@ -1,4 +1,4 @@
-"""Sparse reflectance: flatten the photo until few colours are left, then what was flattened is shading."""
+"""Sparse reflectance: flatten the photo until few colors are left, then what was flattened is shading."""
 
 from __future__ import annotations
 
@@ -34,15 +34,15 @@ def l1_flatten(
     z = argmin sum w_ij |z_i - z_j|_1 + (1 / flatness) sum |z_i - f_i|^2 over neighbours i, j.
 
     Bi, Han, Yu, An L1 Image Transform for Edge-Preserving Smoothing and Scene-Level Intrinsic Decomposition, SIGGRAPH
-    2015: the local sparseness and the approximation term of their energy, by split Bregman, on a colour f in which
+    2015: the local sparseness and the approximation term of their energy, by split Bregman, on a color f in which
     brightness counts little, so that shading gradients are flattened and changes of hue are not. Then, as in their
     second stage, reflectance is made constant where z is, and shading smooth where z is not: a Poisson problem. (Their
     global term, between superpixels far apart, and their clustering of reflectances are left out.)
 
     Args:
         mask: H x W, over which shading gets the mean of the intensity.
-        flatness: how far the flattening reaches. similar: colour difference beyond which neighbours are not joined.
-        edge: step of the flattened colour that counts as a change of reflectance.
+        flatness: how far the flattening reaches. similar: color difference beyond which neighbours are not joined.
+        edge: step of the flattened color that counts as a change of reflectance.
         iterations: of split Bregman. resolution: longer side of the copy that is solved on.
         floor: least shading.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphface import warn
-from graphface.nodes.colour import channel_mean
+from graphface.nodes.color import channel_mean
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
 DARKEST = 1 / 64
@@ -29,7 +29,7 @@ def log_intensity(pixels: FloatArray, darkest: float = DARKEST) -> FloatArray:
 
 
 def chromaticity(pixels: FloatArray, darkest: float = DARKEST) -> FloatArray:
-    """Colour without brightness, (R, G, B) / (R + G + B), H x W x 3; drawn towards grey in the dark."""
+    """Color without brightness, (R, G, B) / (R + G + B), H x W x 3; drawn towards grey in the dark."""
     padded = np.maximum(pixels, 0) + np.float32(darkest)
     grey: FloatArray = padded / (3 * channel_mean(padded))[..., None]
     return grey

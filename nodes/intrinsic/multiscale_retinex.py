@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.colour import channel_mean
+from graphface.nodes.color import channel_mean
 from graphface.nodes.intrinsic.logarithm import DARKEST, finite_pixels, separated
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 

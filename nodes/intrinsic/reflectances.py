@@ -1,4 +1,4 @@
-"""The few reflectances of `intrinsic.bell2014`: clusters of colour, with intensities that make shading continuous."""
+"""The few reflectances of `intrinsic.bell2014`: clusters of color, with intensities that make shading continuous."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from graphface.nodes.types import FloatArray
 _BRIGHTNESS = 0.5
 """Weight of log intensity beside chromaticity in clustering, as in Bell et al.: shading alters it."""
 
+
 _REWEIGHTINGS = 10
+
+
 _RIDGE = 1e-3
 
 
@@ -26,7 +29,7 @@ class Palette:
 
 
 def clusters(intensity: FloatArray, hue: FloatArray, count: int) -> Palette:
-    """k-means on colour, started from quantiles of brightness: no random numbers, the same in every run."""
+    """k-means on color, started from quantiles of brightness: no random numbers, the same in every run."""
     import cv2
 
     points = np.concatenate([_BRIGHTNESS * intensity[..., None], 3 * hue], axis=2).reshape(-1, 4).astype(np.float32)

@@ -24,9 +24,9 @@ def retinex(
     brightness: Threshold = 0.25,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Intrinsic:
-    """Land and McCann's retinex in its colour-gradient form, as a Poisson problem.
+    """Land and McCann's retinex in its color-gradient form, as a Poisson problem.
 
-    Land, McCann, Lightness and Retinex Theory, JOSA 1971; the colour form is that of Grosse et al., Ground Truth
+    Land, McCann, Lightness and Retinex Theory, JOSA 1971; the color form is that of Grosse et al., Ground Truth
     Dataset and Baseline Evaluations for Intrinsic Image Algorithms, ICCV 2009. A step between neighbours belongs to the
     reflectance where chromaticity changes by more than `color` or log intensity by more than `brightness`; the log
     reflectance is the field whose gradient is nearest to the steps kept.

@@ -21,7 +21,10 @@ from graphface.nodes.landmarks.weights import BLAZEFACE, BLAZEFACE_FULL_RANGE
 from graphface.nodes.types import FloatArray
 
 Floats = NDArray[np.floating[Any]]
+
+
 Range = Literal["near", "far"]
+
 
 MERGE_OVERLAP = 0.3
 """Answers whose boxes overlap more than this (intersection over union) are one face."""

@@ -15,25 +15,31 @@ from pydantic import Field
 from graphface import RunError, node, warn
 from graphface.nodes.landmarks.blazeface import Face
 from graphface.nodes.landmarks.crop import Crop, crop_about
-from graphface.nodes.landmarks.network import network_pixels, run_network, sigmoid
+from graphface.nodes.landmarks.network import run_network, sigmoid
 from graphface.nodes.landmarks.search import search
 from graphface.nodes.landmarks.weights import FACEMESH
+from graphface.nodes.network_pixels import network_pixels
 from graphface.nodes.types import FloatArray, Image, Landmarks
 
 SIDE = 192
 """Pixels of the network's square input."""
 
+
 MARGIN = 1.5
 """Side of the crop over the size of the face in it, as in training."""
+
 
 EYES = [33, 263]
 """The outer corners of the right and the left eye."""
 
+
 _DETECTOR_POINTS = ([33, 133], [263, 362], [4], [13, 14])
 """The mesh's points about the detector's first four: right eye, left eye, nose tip, mouth."""
 
+
 MAX_DISAGREEMENT = 0.25
 """More than this, and detector and mesh do not speak of the same face; see `disagreement`."""
+
 
 Unit = Annotated[float, Field(ge=0, le=1)]
 

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphface import UsageError, node, warn
-from graphface.nodes.landmarks.schemes import POINTS
+from graphface import node, warn
+from graphface.nodes.landmark_schemes import POINTS, UnusableLandmarks
 from graphface.nodes.types import Image, Landmarks
-
-
-class UnusableLandmarks(UsageError):
-    """Points that cannot be points on the face of this photo."""
 
 
 @node("landmarks.given")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from graphface.assets.asset import Asset
 from graphface.nodes.landmarks.weights import weights_path
-from graphface.nodes.types import Encoding, FloatArray
+from graphface.nodes.types import FloatArray
 
 _threads = threading.local()
 
@@ -34,15 +34,6 @@ def run_network(asset: Asset, pixels: FloatArray) -> dict[str, FloatArray]:
     net.setInput(blob)
     names = net.getUnconnectedOutLayersNames()
     return {name: np.array(out, dtype=np.float32) for name, out in zip(names, net.forward(names), strict=True)}
-
-
-def network_pixels(pixels: FloatArray, encoding: Encoding) -> FloatArray:
-    """Pixels as the networks know them: sRGB-encoded, within 0..1, finite (what is not a number is black)."""
-    if encoding == "linear":
-        from graphface.nodes.image import encode_srgb
-
-        pixels = encode_srgb(pixels)
-    return np.clip(np.nan_to_num(pixels, nan=0, posinf=1, neginf=0), 0, 1)
 
 
 def sigmoid(logits: NDArray[np.float32]) -> NDArray[np.float32]:

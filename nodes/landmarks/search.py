@@ -16,15 +16,17 @@ import numpy as np
 
 from graphface import warn
 from graphface.nodes.landmarks.blazeface import Face, Range, detect
-from graphface.nodes.landmarks.network import network_pixels
+from graphface.nodes.network_pixels import network_pixels
 from graphface.nodes.types import FloatArray, Image
 
 LONG_SIDE = 1600
 """Searching is done on a copy no larger than this; the networks see 256 pixels, or tiles of it."""
 
+
 SURE = 0.75
 """Detector score from which the first rung is believed alone. Measured: whole faces 0.74 and more, parts of a face up
 to 0.64."""
+
 
 T = TypeVar("T")
 

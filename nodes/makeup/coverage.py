@@ -8,8 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.makeup.features import Features
-from graphface.nodes.types import Mask
+from graphface.nodes.types import Features, Mask
 
 Strength = Annotated[float, Field(ge=0, le=1)]
 

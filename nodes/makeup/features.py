@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
@@ -11,57 +10,37 @@ from pydantic import Field
 
 from graphface import UsageError, node, warn
 from graphface.nodes.blur import blurred
-from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
+from graphface.nodes.types import Features, FloatArray, Image, Landmarks
 
 # Numbers of FaceMesh points along each outline; first the person's right (the picture's left), then the left.
 EYES = (
     (33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246),
     (263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466),
 )
+
+
 LIDS = (
     (46, 53, 52, 65, 55, 226, 31, 228, 229, 230, 231, 232, 233, 244),
     (276, 283, 282, 295, 285, 446, 261, 448, 449, 450, 451, 452, 453, 464),
 )
+
+
 BROWS = (
     (70, 63, 105, 66, 107, 55, 65, 52, 53, 46),
     (300, 293, 334, 296, 336, 285, 295, 282, 283, 276),
 )
+
+
 CHEEKS = ((117, 50, 36, 205, 187, 147, 123, 116), (346, 280, 266, 425, 411, 376, 352, 345))
+
+
 LIPS = (61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 409, 270, 269, 267, 0, 37, 39, 40, 185)
+
+
 MOUTH = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308, 415, 310, 311, 312, 13, 82, 81, 80, 191)
+
+
 NOSE = (168, 122, 174, 198, 209, 49, 64, 98, 97, 2, 326, 327, 294, 279, 429, 420, 399, 351)
-
-
-@dataclass(frozen=True)
-class Features:
-    """Masks H x W: openings `eyes` and `mouth`; `lips` without the mouth, and the skin `around` them with the corners
-    of the mouth; `lids`, `brows`, `nose`, `cheeks`."""
-
-    eyes: Mask
-    mouth: Mask
-    lips: Mask
-    around: Mask
-    lids: Mask
-    brows: Mask
-    nose: Mask
-    cheeks: Mask
-
-    def any_of(self, *names: str) -> Mask:
-        """The largest of some of the masks."""
-        first, *others = (getattr(self, name) for name in names)
-        largest: Mask = first.copy()
-        for mask in others:
-            np.maximum(largest, mask, out=largest)
-        return largest
-
-    @staticmethod
-    def picture(features: Features) -> NDArray[np.uint8]:
-        """Red lips and cheeks, green lids and nose, blue brows; the openings white."""
-        openings = features.any_of("eyes", "mouth")
-        red = np.maximum(features.lips, 0.5 * features.cheeks)
-        green = np.maximum(features.lids, 0.5 * features.nose)
-        colours = np.stack([np.maximum(c, openings) for c in (red, green, features.brows)], axis=2)
-        return np.asarray(np.rint(np.clip(colours, 0, 1) * 255), np.uint8)
 
 
 @node("makeup.features")

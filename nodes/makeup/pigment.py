@@ -1,8 +1,8 @@
 """The albedo as paint has it: the redness of creases and the paleness of shine given back to the detail map.
 
 The paper's albedo is "large blotches of constant color", and fine relief is left to the detail map. Where shading is
-intensity that does not come by itself: light that is caught in a crease is reddened, and shine is white, so colour over
-intensity shows both. When detail of one face is put onto the albedo of another, such colours would stay behind without
+intensity that does not come by itself: light that is caught in a crease is reddened, and shine is white, so color over
+intensity shows both. When detail of one face is put onto the albedo of another, such colors would stay behind without
 the darkness or the light that they belong to: an orange rim where a nostril was, a grey patch where a cheek shone.
 """
 
@@ -14,12 +14,16 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.colour import channel_mean
+from graphface.nodes.color import channel_mean
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, FloatArray, Landmarks, Mask, Shading
 
 _LEAST_LIGHT = 0.02
+
+
 _LEAST_TRUST = np.float32(1e-3)
+
+
 _FAR = 0.05
 """Weight of the wide average beside the near one: it decides where the near one has seen nothing to be trusted."""
 
@@ -41,7 +45,7 @@ def pigment(
 
     Args:
         albedo, shading: of an intrinsic method. estimated: the light's shading, spread over the picture.
-        skin: where colours around are taken from.
+        skin: where colors around are taken from.
         dark: how much darker than its surroundings, as a factor, a pixel begins to be a crease; at half of that it is
             one. bright: how much brighter than the estimated light it begins to shine; at half as much again it does.
         reach: of the average around, in inter-ocular distances; lips and stripes are broader.
@@ -61,10 +65,10 @@ def pigment(
         return np.asarray(cv2.resize(values, full, interpolation=cv2.INTER_LINEAR), np.float32)
 
     light = channel_mean(estimated)
-    brightness, lit, colour = small(channel_mean(shading)), small(light), small(albedo)
+    brightness, lit, color = small(channel_mean(shading)), small(light), small(albedo)
     usual = _smooth(brightness, 1.5 * reach * unit)
     weight = (np.square(_trusted(brightness, usual, lit, dark, bright)) + _LEAST_TRUST) * (small(skin) + _LEAST_TRUST)
-    near, far = (_smooth(np.dstack([colour * weight[..., None], weight]), r * reach * unit) for r in (1, 4))
+    near, far = (_smooth(np.dstack([color * weight[..., None], weight]), r * reach * unit) for r in (1, 4))
     mean = near + np.float32(_FAR) * far
     around = large(np.asarray(mean[..., :3] / np.maximum(mean[..., 3:], np.float32(1e-9)), np.float32))
     usual = large(usual)
@@ -79,7 +83,7 @@ def pigment(
 
 
 def _trusted(brightness: FloatArray, usual: FloatArray, light: FloatArray, dark: float, bright: float) -> FloatArray:
-    """1 where a pixel's colour is its pigment's, 0 in the depth of a crease and in full shine."""
+    """1 where a pixel's color is its pigment's, 0 in the depth of a crease and in full shine."""
     least = np.float32(_LEAST_LIGHT)
     crease = (brightness + least) / (usual + least) * np.float32(2 / dark) - 1
     shine = 3 - (brightness + least) / (light + least) * np.float32(2 / bright)

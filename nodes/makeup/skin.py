@@ -8,8 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.makeup.features import Features
-from graphface.nodes.types import FloatArray, Landmarks, Mask, Segmentation, Surface
+from graphface.nodes.types import Features, FloatArray, Landmarks, Mask, Segmentation, Surface
 
 
 @node("makeup.skin")
@@ -22,7 +21,7 @@ def skin(
     *,
     rim: Annotated[float, Field(ge=0, le=1)] = 0.25,
 ) -> Mask:
-    """The face label (with ears and neck), and all that is deep inside the mesh and no hair, whatever its colour.
+    """The face label (with ears and neck), and all that is deep inside the mesh and no hair, whatever its color.
 
     A classifier that has learned what skin looks like takes a blue lip or a green stripe for something else. Eyes,
     brows, nose and lips are part of a face; hair hangs in from its outline, so towards that the label decides, and

@@ -26,12 +26,15 @@ from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segme
 Scores = FloatArray
 """h x w x 4, in the order FACE, HAIR, BACKDROP, CLOTHES."""
 
+
 OPENNESS = 0.02
 """Share of any class that may look like anything."""
+
 
 DOUBT = 0.25
 """Pixels of anything beside those that teach a class, in squared inter-ocular distances: a class of next to no sample
 is told by its place. Half as much lets the few pixels of backdrop in a tight crop jump."""
+
 
 TEACHING = (0.15, 0.25)
 """Belief in a class up to which a pixel does not teach it, and from which it teaches in proportion. A pixel that
@@ -62,10 +65,10 @@ def classify(
         cue: where the labels are, roughly (see `masks.cue`); None: where they tend to be (see `masks.prior`).
         model: "parzen" densities, or the paper's "mixture" of Gaussians (see `masks.likeness`).
         components: Gaussians in each mixture.
-        prior: weight of where things are expected; 0 asks colour and texture alone.
-        evidence: weight of colour and texture.
+        prior: weight of where things are expected; 0 asks color and texture alone.
+        evidence: weight of color and texture.
         smoothing: "none", "guided" (edge-preserving filter of the probabilities) or "mean_field" (neighbours of like
-            colour want the same label).
+            color want the same label).
         rounds: times that the classes are learnt.
 
     Returns:

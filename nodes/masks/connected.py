@@ -7,19 +7,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.masks.head import CHIN, EYE_LINE
+from graphface.nodes.head_shape import CHIN, EYE_LINE
 from graphface.nodes.masks.prior import BACKDROP, FACE, HAIR, Layout
 from graphface.nodes.types import FloatArray
 
 STRIP = 0.06
 """Width of the thinnest hair that can carry more hair, in inter-ocular distances."""
 
+
 GAP = 8.0
 """Price of an inter-ocular distance through what is surely no hair, on the way from the head to a lock."""
+
 
 COLLAR, INWARDS = 8.0, 0.15
 """Price of an inter-ocular distance through hair, for each that the way lies inside of the neck, counted from this far
 outside of it. Locks fall beside the neck; what hangs on the head only by way of the throat is a collar or a suit."""
+
 
 WAYS = 400
 """Longest way that is looked for, working pixels."""

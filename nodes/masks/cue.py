@@ -11,14 +11,13 @@ from __future__ import annotations
 import numpy as np
 
 from graphface import node
-from graphface.nodes.landmarks.network import network_pixels
-from graphface.nodes.masks.hair import Hair
 from graphface.nodes.masks.label_network import Weights, label_scores
 from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights
+from graphface.nodes.masks.network_input import mirror_image, shown
 from graphface.nodes.masks.prior import log_sum_exp
-from graphface.nodes.masks.shown import mirror_image, shown
 from graphface.nodes.masks.upright import Upright, upright_of
-from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Segmentation
+from graphface.nodes.network_pixels import network_pixels
+from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
 
 @node("masks.cue")
@@ -42,12 +41,6 @@ def cue(
     chances = label_chances(photo, landmarks, grid, learned, mirrored)
     face, hair = (grid.laid_back(np.ascontiguousarray(chances[..., k]), photo.pixels.shape) for k in range(2))
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
-
-
-@node("masks.cued_hair")
-def cued_hair(labels: Segmentation, masks: HeadMasks) -> Hair:
-    """What is hair by labels found elsewhere, in place of the detector `masks.hair`."""
-    return Hair(labels.hair, labels.hair * masks.normal)
 
 
 def label_chances(photo: Image, landmarks: Landmarks, grid: Upright, weights: Weights, mirrored: bool) -> FloatArray:

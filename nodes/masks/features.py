@@ -1,4 +1,4 @@
-"""What a pixel is told by: its colour, and the texture around it."""
+"""What a pixel is told by: its color, and the texture around it."""
 
 from __future__ import annotations
 
@@ -9,18 +9,20 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.color import ColorSpace, in_space
 from graphface.nodes.masks.texture import Bank, mr8
 from graphface.nodes.masks.window import Window, window_about
 from graphface.nodes.types import FloatArray, Image, Landmarks
 
-ColorSpace = Literal["lab", "rgb", "ycrcb", "hsv"]
 FeatureSet = Literal["color", "color+mr8"]
+
 
 TEXTURE_GAIN = 8.0
 """Responses are this many times amplified, then compressed by asinh: a strand counts, a hard edge not for ever more."""
 
+
 TEXTURE_WEIGHTS = (0.02, 0.02, 0.01, 0.01, 0.005, 0.005, 0.005, 0.005)
-"""Scales of the eight responses beside colour: the wider a filter reaches, the less it says about this very pixel.
+"""Scales of the eight responses beside color: the wider a filter reaches, the less it says about this very pixel.
 
 Mixtures have a least width, so a small scale blurs small differences. Just beside a head wide filters see the head, and
 with large weights those pixels looked like anything but the flat backdrop that they are.
@@ -45,7 +47,7 @@ def pixel_features(
     kind: FeatureSet = "color+mr8",
     bank: Bank = "pyramid",
 ) -> PixelFeatures:
-    """Colour and texture around a face.
+    """Color and texture around a face.
 
     Args:
         photo: of either encoding; its values are compared as they are.
@@ -64,7 +66,7 @@ def features(
 
     Args:
         pixels: H x W x 3 sRGB-encoded; values beyond [0, 1] are clipped, non-finite ones become 0.
-        space: where colours are compared. kind: colour alone, or with the MR8 responses of the lightness.
+        space: where colors are compared. kind: color alone, or with the MR8 responses of the lightness.
         bank: see `masks.texture.mr8`.
     """
     import cv2
@@ -76,19 +78,3 @@ def features(
     grey = np.asarray(cv2.cvtColor(clean, cv2.COLOR_RGB2GRAY), np.float32)
     texture = np.arcsinh(TEXTURE_GAIN * mr8(grey, bank)) * np.asarray(TEXTURE_WEIGHTS, np.float32)
     return np.concatenate([color, texture], axis=2, dtype=np.float32)
-
-
-def in_space(pixels: FloatArray, space: ColorSpace) -> FloatArray:
-    """RGB in [0, 1] to three channels of another space, scaled to ranges of about 1."""
-    import cv2
-
-    if space == "rgb":
-        return pixels
-    if space == "hsv":  # the hue as a point of the colour disc, or red would be two colours
-        hsv = cv2.cvtColor(pixels, cv2.COLOR_RGB2HSV)
-        hue = np.radians(hsv[..., 0])
-        return np.stack([hsv[..., 1] * np.cos(hue), hsv[..., 1] * np.sin(hue), hsv[..., 2]], axis=2).astype(np.float32)
-    if space == "ycrcb":
-        return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_RGB2YCrCb), np.float32)
-    lab = np.asarray(cv2.cvtColor(pixels, cv2.COLOR_RGB2Lab), np.float32)
-    return lab * np.asarray([0.01, 0.02, 0.02], np.float32)

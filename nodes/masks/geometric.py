@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
-from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
-from graphface.nodes.masks.head import Points, cranium, ears, neck, pose_of
+from graphface.nodes.head_shape import Points, cranium, ears, neck, pose_of
+from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Surface
 
@@ -35,7 +35,7 @@ def geometric(
         photo: gives the size, H x W; its pixels are not read.
         landmarks: any scheme; they place the head that the face sits on.
         surface: the mesh in the picture; its coverage belongs to the normal mask.
-        head: "solids" adds cranium and ears to a mesh of the face alone (see `masks.head`); "mesh" takes the mesh as it
+        head: "solids" adds cranium and ears to a mesh of the face alone (see `head_shape`); "mesh" takes the mesh as it
             is, which is right where it is a whole head.
         shrink: how far the conservative mask stays inside the landmarks' outline.
         hairline: the conservative mask ends here, a height in the mean face's frame (eyes 0.34, top of the mesh 0.92):

@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.masks.bare import bare_skin
+from graphface.nodes.head_shape import CHIN, EYE_LINE
+from graphface.nodes.masks.exposed_skin import bare_skin
 from graphface.nodes.masks.features import PixelFeatures
-from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.masks.likeness import Likeness, Model, likeness_of
 from graphface.nodes.masks.prior import BACKDROP, CLOTHES, HAIR, Layout, layout_of, log_prior
 from graphface.nodes.types import FloatArray, HeadMasks, Landmarks, Mask
@@ -31,42 +31,52 @@ from graphface.nodes.types import FloatArray, HeadMasks, Landmarks, Mask
 SHINE, SHINE_HUE = 0.07, 1.9
 """A scalp is lighter than the face by more than this share of white, and its hue off by less than this many spreads."""
 
+
 SHINE_SLOPE, SHINE_HUE_SLOPE = 0.015, 0.3
 """How far from those bounds a pixel is still taken for both."""
+
 
 SOFTNESS = 1.3
 """Log-likelihoods of one pixel's features are divided by this: they are not independent, and say less than they sum to.
 With half as much again the hair of three portraits jumps."""
 
+
 NEAR = 0.85
 """Weight of the odds that place gives hair inside of the head. With 0, hair that fills a tight crop is called backdrop:
-the same colour on top and beside, and more of it beside. With 1, under coloured light more of a backdrop becomes
+the same color on top and beside, and more of it beside. With 1, under colored light more of a backdrop becomes
 hair (path-traced heads under `red_blue`: background 0.86, with this 0.98)."""
+
 
 DOUBT = 0.03
 """Pixels of anything beside those that teach hair or backdrop, in squared inter-ocular distances. Four times as much
 drowned the little hair that a tight crop shows."""
 
+
 SKIN_ROOM = 0.05
 """Standard deviation by which the skin's lightness is spread: a forehead shines, a neck lies in shadow."""
+
 
 FADED = 1 / 6
 """Part of the least share of hair at which the response has faded to 0, by a long slope."""
 
+
 LEAST_SPREAD = 0.02
-"""Of the skin's hue, in feature units: that of a flat colour."""
+"""Of the skin's hue, in feature units: that of a flat color."""
+
 
 NEIGHBORHOOD = 1.0
 """Standard deviation, in working pixels, of the average that the lead of hair is judged by."""
+
 
 BESIDE = 0.05
 """Distance from the head, in inter-ocular distances, from which backdrop is learnt. It takes part in proportion to how
 far off it is; a backdrop learnt only far from the head would not know the shade that it has behind the hair."""
 
+
 DEEP, RIM = 0.25, 0.05
 """Distance inside of the head, in inter-ocular distances, from which its top teaches hair with full weight, and the
 weight at its rim. The head's solids overshoot a small skull, and the backdrop that they cover there was learnt as hair:
-under side and coloured light a whole backdrop became hair."""
+under side and colored light a whole backdrop became hair."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +99,7 @@ def hair(
     least: Annotated[float, Field(ge=0, le=1)] = 0.12,
     rounds: Annotated[int, Field(ge=1, le=10)] = 3,
 ) -> Hair:
-    """Find hair by the colours and textures on top of this head.
+    """Find hair by the colors and textures on top of this head.
 
     Args:
         features: of the photo. masks: from the projected geometry.
@@ -122,7 +132,7 @@ def hair(
     lead = np.asarray(cv2.GaussianBlur(lead, (0, 0), NEIGHBORHOOD), np.float32)
     against = np.minimum(places.odds, 0).reshape(bare.shape)
     found = enough * sigmoid((lead - margin / 2) / SOFTNESS + against) * (1 - bare)
-    # A line along the silhouette mixes the colours of both sides, and so resembles neither; hair is wider than that.
+    # A line along the silhouette mixes the colors of both sides, and so resembles neither; hair is wider than that.
     found = np.asarray(cv2.morphologyEx(found, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)), np.float32)
     response = window.enlarged(found, masks.normal.shape, beyond=0)
     return Hair(response, response * masks.normal)

@@ -18,8 +18,10 @@ from graphface.nodes.types import FloatArray
 WIDTHS = (16, 32, 48, 64)
 """Channels at each level, finest first."""
 
+
 MULTIPLICATIONS = 1 << 17
 """In one matrix product, as in `masks.mixture`: OpenBLAS starts no threads of its own for less."""
+
 
 Weights = Mapping[str, NDArray[np.float32]]
 
@@ -28,7 +30,7 @@ def label_scores(cells: FloatArray, weights: Weights) -> FloatArray:
     """Scores (logits) of face, hair and background, float32 2h x 2w x 3.
 
     Args:
-        cells: h x w x C as of `masks.shown`, h and w multiples of 8.
+        cells: h x w x C as of `masks.network_input`, h and w multiples of 8.
     """
     levels = []
     for level in range(len(WIDTHS)):

@@ -13,9 +13,10 @@ import numpy as np
 
 from graphface import UnreadableFile, UnwritableFile
 from graphface.nodes.masks.label_network import WIDTHS, Weights
-from graphface.nodes.masks.shown import CHANNELS
+from graphface.nodes.masks.network_input import CHANNELS
 
 FORMAT = "graphface-labels-1"
+
 
 SHIPPED = Path(__file__).with_name("labels.safetensors")
 """A constant, so that its content counts in the fingerprint of what uses it."""

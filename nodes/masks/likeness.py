@@ -19,14 +19,18 @@ from graphface.nodes.types import FloatArray
 
 Model = Literal["parzen", "mixture"]
 
+
 SAMPLES = 2000
 """Pixels that a mixture is fitted to, about."""
+
 
 STEPS = 12
 """Of expectation maximization: a mixture stopped half-way moves more with the noise of the photo."""
 
+
 EVIDENCE = 0.6
 """Weight of a mixture's log-likelihoods: its eleven features are not independent, and say less than they sum to."""
+
 
 UNKNOWN = -1.0
 """Log-likelihood of a class of which there is no sample, beside a broad Gaussian of the whole window."""

@@ -2,7 +2,7 @@
 
 Written out here rather than taken from scikit-learn for three reasons: samples carry weights (how sure we are that a
 pixel is hair), the start is not random (a photo with a little noise must give nearly the same classifier), and
-importing scikit-learn takes longer than segmenting. Every covariance has a floor, so a flat colour is a mixture too.
+importing scikit-learn takes longer than segmenting. Every covariance has a floor, so a flat color is a mixture too.
 """
 
 from __future__ import annotations
@@ -14,7 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
 Samples = NDArray[np.floating[Any]]
+
 
 MULTIPLICATIONS = 1 << 17
 """In one matrix product. Above twice this OpenBLAS starts threads; beside the engine's own they wait for each other,

@@ -19,27 +19,34 @@ from pydantic import Field
 
 from graphface import UsageError, node
 from graphface.assets.asset import asset_path
-from graphface.nodes.landmarks.network import network_pixels
+from graphface.nodes.head_shape import pose_of
 from graphface.nodes.masks.connected import apart, roots
-from graphface.nodes.masks.head import pose_of
 from graphface.nodes.masks.prior import Layout, layout_of, log_sum_exp
 from graphface.nodes.masks.weights import SELFIE_MULTICLASS
 from graphface.nodes.masks.window import Window, window_about
+from graphface.nodes.network_pixels import network_pixels
 from graphface.nodes.types import FloatArray, HeadMasks, Image, Landmarks, Mask, Segmentation
 
 SIDE = 256
+
+
 HAIR, SKIN = 1, slice(2, 4)
 """Of the network's six classes; the others are background, clothes and accessories."""
 
+
 WORKING = 42
 """Pixels per inter-ocular distance that labels are cleared of other people at: about what the network sees."""
+
 
 BESIDE = (1.2, 1.5)
 """Distance from the middle of the face, in inter-ocular distances, from and up to which somebody else may stand. Long
 hair that falls nearer than that is never taken for another's: a lock under a shadow hangs by little, and would jump
 with noise."""
 
+
 _threads = threading.local()
+
+
 _starting = threading.Lock()
 
 

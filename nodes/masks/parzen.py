@@ -1,12 +1,12 @@
 """Parzen densities of a photo's pixels: one soft histogram for each label, smoothed. No iteration, and one answer.
 
-Every pixel that teaches a label puts a small Gaussian where its colour and texture lie (Parzen, On Estimation of a
+Every pixel that teaches a label puts a small Gaussian where its color and texture lie (Parzen, On Estimation of a
 Probability Density Function and Mode, 1962). All have one width, so their sum is a histogram of soft bins, blurred: it
 depends smoothly on every pixel and in proportion on every weight. Mixtures fitted by expectation maximization
 (`masks.mixture`) stop in one of several optima; for 2 of 116 portraits noise of a tenth of an 8-bit level chose another
 one, and then 3 to 6 % of a label went elsewhere.
 
-Bins have four axes: lightness, two of colour, and the strength of texture (the mean of the finer MR8 responses).
+Bins have four axes: lightness, two of color, and the strength of texture (the mean of the finer MR8 responses).
 """
 
 from __future__ import annotations
@@ -18,29 +18,34 @@ from graphface.nodes.masks.features import TEXTURE_WEIGHTS
 from graphface.nodes.types import FloatArray
 
 CELL = 0.03
-"""Width of a bin in lightness and colour, whose ranges are about 1."""
+"""Width of a bin in lightness and color, whose ranges are about 1."""
+
 
 BEND = 0.3
-"""Chroma from which bins grow wider: few pixels are more colourful, and they differ more from each other."""
+"""Chroma from which bins grow wider: few pixels are more colorful, and they differ more from each other."""
+
 
 TEXTURE_CELL, RESPONSES = 0.3, 4
 """Width of a bin of texture, in units of asinh of amplified responses, and how many responses are averaged."""
 
+
 COLORS, TEXTURES = 2.0, 3.0
-"""Greatest colour, either sign, and greatest texture; what goes beyond is put into the last bin, so bins are few."""
+"""Greatest color, either sign, and greatest texture; what goes beyond is put into the last bin, so bins are few."""
+
 
 NARROW, WIDE, BROAD = (1.0, 1.0, 1.0, 1.0), (5.0, 5.0, 5.0, 2.5), (6.0, 6.0, 6.0, 2.0)
 """Standard deviations, in bins, of the Gaussians: of a pixel; of its share `FAR`; and of "anything in this photo"."""
 
+
 FAR = 0.2
-"""Share of a pixel's say that reaches wide: a label goes a little beyond the very colours that it was taught."""
+"""Share of a pixel's say that reaches wide: a label goes a little beyond the very colors that it was taught."""
 
 
 class Palette:
     """Densities of the pixels of one photo.
 
     Args:
-        values: features h x w x D (see `masks.features.features`); colour first, then texture if there is any.
+        values: features h x w x D (see `masks.features.features`); color first, then texture if there is any.
     """
 
     def __init__(self, values: FloatArray) -> None:
@@ -100,7 +105,7 @@ class Palette:
 
 
 def _place(flat: FloatArray) -> NDArray[np.float32]:
-    """Features (n, D) in bins: (n, 3) of colour, or (n, 4) with texture, within the limits of both."""
+    """Features (n, D) in bins: (n, 3) of color, or (n, 4) with texture, within the limits of both."""
     color = np.clip(flat[:, :3], -COLORS, COLORS)
     bent = np.arcsinh(color[:, 1:] / BEND) * BEND
     axes = [color[:, 0] / CELL, *(bent / CELL).T]

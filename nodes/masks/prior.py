@@ -1,8 +1,8 @@
 """Where face, hair and background are to be expected, before any pixel is looked at.
 
 Four classes: background is the backdrop beside the head and the clothes below it, since a dark suit says nothing about
-what stands behind dark hair. Scores are piecewise linear in distances from the solids of `masks.head`, in inter-ocular
-distances; the numbers were set by looking at portraits, and matter only where colour and texture say little.
+what stands behind dark hair. Scores are piecewise linear in distances from the solids of `head_shape`, in inter-ocular
+distances; the numbers were set by looking at portraits, and matter only where color and texture say little.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.landmarks.schemes import BROWS, EYES, IBUG68_IN_FACEMESH468, OUTER_LIPS
+from graphface.nodes.head_shape import CHIN, EYE_LINE, Points, cranium, ears, neck, pose_of
+from graphface.nodes.landmark_schemes import BROWS, EYES, IBUG68_IN_FACEMESH468, OUTER_LIPS
 from graphface.nodes.masks.geometric import filled
-from graphface.nodes.masks.head import CHIN, EYE_LINE, Points, cranium, ears, neck, pose_of
 from graphface.nodes.masks.window import Window
 from graphface.nodes.types import FloatArray, Landmarks
 

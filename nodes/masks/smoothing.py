@@ -1,4 +1,4 @@
-"""Neighbouring pixels of like colour have like labels: the swaps for spatial smoothing."""
+"""Neighbouring pixels of like color have like labels: the swaps for spatial smoothing."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from graphface.nodes.masks.prior import log_sum_exp
 from graphface.nodes.types import FloatArray
 
 Smoothing = Literal["none", "guided", "mean_field"]
+
 
 STEPS = (1, 2, 4)
 """Neighbours looked at in eight directions, pixels."""

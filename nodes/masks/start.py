@@ -11,24 +11,27 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.masks.bare import bare_skin
+from graphface.nodes.head_shape import CHIN, EYE_LINE
+from graphface.nodes.masks.exposed_skin import bare_skin
 from graphface.nodes.masks.hair import skin_weights
-from graphface.nodes.masks.head import CHIN, EYE_LINE
 from graphface.nodes.masks.prior import BACKDROP, CLOTHES, FACE, HAIR, Layout, log_prior, log_sum_exp
 from graphface.nodes.types import FloatArray
 
 BARE = 6.0
 """Added to the score of face, and taken off the score of hair, where the forehead surely goes on."""
 
+
 NO_HAIR = 6.0
 """Taken off the score of hair everywhere where the detector found none; half of it where no pixel is surer than 1/4."""
 
+
 TRUST = 0.5
-"""Weight of a cue's log chances beside the likeness of colours: it saw less of the photo than those, and is unsure of
+"""Weight of a cue's log chances beside the likeness of colors: it saw less of the photo than those, and is unsure of
 edges. On photos and heads that took no part in its learning anything from 0.35 to 0.7 is within 0.004 of the best."""
 
+
 LEAST_CHANCE = 1e-4
-"""A cue is never surer than this against a label: colours must be able to overrule it."""
+"""A cue is never surer than this against a label: colors must be able to overrule it."""
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,15 @@ from numpy.typing import NDArray
 from graphface.nodes.types import FloatArray
 
 DIRECTIONS = 6
+
+
 SCALES = ((1.0, 3.0), (2.0, 6.0), (4.0, 12.0))
 """Standard deviations across and along the filter, pixels."""
+
+
 ROUND = 10.0
 """Standard deviation of the isotropic Gaussian and of the Laplacian, pixels."""
+
 
 Bank = Literal["pyramid", "full"]
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.masks.head import Pose, pose_of
+from graphface.nodes.head_shape import Pose, pose_of
 from graphface.nodes.masks.prior import Layout, layout_of
 from graphface.nodes.masks.window import Window
 from graphface.nodes.types import FloatArray, Landmarks
@@ -19,8 +19,10 @@ from graphface.nodes.types import FloatArray, Landmarks
 HEIGHT, WIDTH = 96, 80
 """Of the grid, pixels."""
 
+
 UNIT = 16.0
 """Pixels of the grid for one outer-eye-corner distance of the mean face: the grid reaches 2.5 to either side."""
+
 
 ABOVE = 2.7
 """How far the grid reaches above the face's middle, in that distance; 3.3 below."""

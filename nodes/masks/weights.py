@@ -15,4 +15,5 @@ SELFIE_MULTICLASS = Asset(
     extra="network",
 )
 
+
 ASSETS = (SELFIE_MULTICLASS,)

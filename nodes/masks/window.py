@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.masks.head import pose_of
+from graphface.nodes.head_shape import pose_of
 from graphface.nodes.types import FloatArray, Landmarks
 
 REACH = (3.0, 2.8, 3.2)

@@ -2,7 +2,7 @@
 
 Levin, Lischinski and Weiss, A Closed-Form Solution to Natural Image Matting, PAMI 2008.
 
-Within every 3 x 3 window alpha is a linear function of the colour, up to a ridge; what that leaves over is alpha^T L
+Within every 3 x 3 window alpha is a linear function of the color, up to a ridge; what that leaves over is alpha^T L
 alpha, least where alpha is right. Known outside of the band, it is solved for inside: `laplacian` builds the system,
 `coarse` says what its solutions look like from afar, `solve` finds them. One matrix serves face and hair; background
 is what is left, since constants are in the Laplacian's null space: the three alphas sum to 1 by themselves.
@@ -23,7 +23,7 @@ from graphface.nodes.matting.solve import solve_alphas
 from graphface.nodes.types import Image, Landmarks, Segmentation
 
 _LARGEST_RIDGE = 1e-2
-"""Epsilon that a picture without colours is solved with at the most."""
+"""Epsilon that a picture without colors is solved with at the most."""
 
 
 @node("matting.closed_form")
@@ -43,11 +43,11 @@ def closed_form(
     The first call ever on a machine waits for PyMatting to compile itself, nearly a minute; the result is kept on disk.
 
     Args:
-        photo: the colours that alphas follow. labels: those outside of the band are kept as certain.
+        photo: the colors that alphas follow. labels: those outside of the band are kept as certain.
         width, strands: half the band's width in inter-ocular distances, in general and between hair and background.
-        ridge: Levin's epsilon, for windows of one colour.
+        ridge: Levin's epsilon, for windows of one color.
         trust: weight of the soft labels inside the band: keeps the solve regular where nothing known is near, and alpha
-            from running along hair into a face of its colour. Less is farther from the truth (hair on path-traced
+            from running along hair into a face of its color. Less is farther from the truth (hair on path-traced
             heads: overlap 0.967 at 1e-4, 0.933 at 1e-5, 0.904 at 1e-6, which is about Levin's own system).
         tolerance: relative residual at which the solve stops; alphas are then within 0.003 of the exact ones, on
             average over a portrait (`graphface bench matting`).
@@ -59,11 +59,11 @@ def closed_form(
     guess = soft_alphas(labels, band)
     known = likeliest_alphas(labels, band.part)
     system, right = band_system(colors, band.unknown, known, guess, ridge=ridge, trust=trust)
-    # A Laplacian is not negative. Where colours of a window are one colour to the last bits but for their brightness,
+    # A Laplacian is not negative. Where colors of a window are one color to the last bits but for their brightness,
     # rounding can make it so; a larger epsilon cannot be told from a small one there.
     while ridge < _LARGEST_RIDGE and len(guess) and system.diagonal().min() < trust / 2:
         ridge = min(max(100 * ridge, 1e-7), _LARGEST_RIDGE)
-        warn(f"matting.closed_form: some windows have no colour to speak of; solved with an epsilon of {ridge:g}")
+        warn(f"matting.closed_form: some windows have no color to speak of; solved with an epsilon of {ridge:g}")
         system, right = band_system(colors, band.unknown, known, guess, ridge=ridge, trust=trust)
     coarse = color_lines(colors, band.unknown)
     return merged(labels, band, solve_alphas(system, right, guess, tolerance=tolerance, coarse=coarse))

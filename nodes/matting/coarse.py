@@ -1,4 +1,4 @@
-"""What alphas look like from afar: in every small block of pixels, a linear function of the colour.
+"""What alphas look like from afar: in every small block of pixels, a linear function of the color.
 
 That is the assumption the matting Laplacian is made of, so these functions are the ones it hardly resists: exactly what
 conjugate gradients take long to find. There are few of them, and among them the best answer is found directly (see
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
+
 
 BLOCK = 6
 """Side of a block, pixels. Smaller ones save steps and cost more each."""
@@ -35,7 +36,7 @@ def color_lines(colors: NDArray[np.floating], unknown: NDArray[np.bool_], block:
     share = 1 / np.maximum(np.bincount(member), 1)
     functions = np.ones((len(y), 4))
     for c in range(3):
-        # Colours less the block's mean: what is left is at right angles to the constant.
+        # Colors less the block's mean: what is left is at right angles to the constant.
         functions[:, c + 1] = inside[:, c] - (share * np.bincount(member, inside[:, c]))[member]
     column = 4 * member[:, None] + np.arange(4, dtype=np.int32)
     starts = np.arange(0, 4 * len(y) + 1, 4, dtype=np.int32)

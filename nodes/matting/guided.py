@@ -1,4 +1,4 @@
-"""Soft edges by the guided filter: inside every small window alpha is a linear function of the colour.
+"""Soft edges by the guided filter: inside every small window alpha is a linear function of the color.
 
 He and Sun, Fast Guided Filter, 2015: the linear functions are found on a small picture, where they cost little, and
 applied to the large one, where they find its edges.
@@ -31,7 +31,7 @@ def guided(
     Args:
         photo: the guide. labels: soft labels; where one is certain over a window it stays so.
         radius: half the window's side, in inter-ocular distances.
-        ridge: variance of colour below which there is no edge. A tenth of it draws the noise of a photo into alpha,
+        ridge: variance of color below which there is no edge. A tenth of it draws the noise of a photo into alpha,
             and is no nearer to the truth (hair on path-traced heads: overlap 0.956 at 1e-4, 0.958 at 1e-3).
         resolution: pixels per inter-ocular distance that the linear functions are found at.
     """
@@ -69,7 +69,7 @@ def _busy(labels: Segmentation, margin: int) -> tuple[slice, slice] | None:
 
 
 def _linear_functions(guide: FloatArray, alphas: FloatArray, side: int, ridge: float) -> FloatArray:
-    """For each pixel and alpha the function colour . a + b, averaged over the windows it lies in: h x w x 2 x 4."""
+    """For each pixel and alpha the function color . a + b, averaged over the windows it lies in: h x w x 2 x 4."""
     mean_guide, mean_alphas = _boxed(guide, side), _boxed(alphas, side)
     products = _boxed((guide[..., :, None] * guide[..., None, :]).reshape(*guide.shape[:2], 9), side)
     covariance = products.reshape(*guide.shape[:2], 3, 3) - mean_guide[..., :, None] * mean_guide[..., None, :]
@@ -96,7 +96,7 @@ def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
 
 
 def _applied(functions: FloatArray, guide: FloatArray) -> FloatArray:
-    """The functions enlarged to the guide and applied to its colours: 2 x H x W."""
+    """The functions enlarged to the guide and applied to its colors: 2 x H x W."""
     import cv2
 
     height, width = guide.shape[:2]

@@ -1,6 +1,6 @@
 """Soft edges by the likest pixels, wherever they are: Chen, Li and Tang, KNN Matting, PAMI 2013.
 
-A pixel's alpha is that of its K nearest neighbours in colour and position: L = D - W with W the likeness of two pixels,
+A pixel's alpha is that of its K nearest neighbours in color and position: L = D - W with W the likeness of two pixels,
 1 - |difference of features| / C. The graph has the band's pixels and those known ones that lie near it.
 """
 
@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.masks.features import in_space
+from graphface.nodes.color import in_space
 from graphface.nodes.matting.band import band_of, likeliest_alphas, merged, soft_alphas
 from graphface.nodes.matting.solve import solve_alphas
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
 PLACE = 0.5
-"""Weight of position beside colour, per inter-ocular distance."""
+"""Weight of position beside color, per inter-ocular distance."""
 
 
 @node("matting.knn")
@@ -38,7 +38,7 @@ def knn(
     """Alphas of face, hair and background, solved in the band where labels meet.
 
     Args:
-        photo: the colours that alphas follow. labels: those outside of the band are kept as certain.
+        photo: the colors that alphas follow. labels: those outside of the band are kept as certain.
         width, strands: half the band's width in inter-ocular distances, in general and between hair and background.
         neighbors: K, of each pixel. rim: how far known pixels beside the band take part, in inter-ocular distances.
         trust: weight of the soft labels inside the band. tolerance: relative residual at which the solve stops.
@@ -73,7 +73,7 @@ def knn(
 
 
 def _features(pixels: FloatArray, y: NDArray[np.intp], x: NDArray[np.intp], unit: float) -> FloatArray:
-    """Colour and place of the chosen pixels, (n, 5)."""
+    """Color and place of the chosen pixels, (n, 5)."""
     clean = np.clip(np.nan_to_num(pixels), 0, 1).astype(np.float32, copy=False)
     color = in_space(clean, "lab")[y, x]
     place = np.stack([y, x], axis=1).astype(np.float32) * np.float32(PLACE / unit)

@@ -19,8 +19,10 @@ from graphface.nodes.types import FloatArray
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
 
+
 STRIP = 2**16
 """Pixels of a strip, about: 25 entries of 16 bytes for each are held at a time."""
+
 
 NEIGHBORS = 25
 """Pixels that share a 3 x 3 window with a pixel: the entries in a row of the Laplacian."""

@@ -21,10 +21,13 @@ from numpy.typing import NDArray
 from graphface import warn
 
 Vector = NDArray[np.float64]
+
+
 Solver = Callable[[Vector], Vector]
 
+
 RIDGE = 1e-9
-"""Of the small system, relative to its diagonal: colours of a block may depend on each other."""
+"""Of the small system, relative to its diagonal: colors of a block may depend on each other."""
 
 
 class TwoLevel:

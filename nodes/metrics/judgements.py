@@ -2,53 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Literal
 
 import numpy as np
 
-from graphface import UnreadableFile
-from graphface.nodes.colour import channel_mean
-from graphface.nodes.types import Albedo
+from graphface.nodes.color import channel_mean
+from graphface.nodes.types import Albedo, Judgement
 
 _LEAST = 1e-10
-
-
-@dataclass(frozen=True)
-class Judgement:
-    """Two points (x, y in shares of width and height), which of them people found darker, and how sure they were."""
-
-    first: tuple[float, float]
-    second: tuple[float, float]
-    darker: Literal["1", "2", "E"]
-    weight: float = 1.0
-
-
-@dataclass(frozen=True)
-class Judgements:
-    """What people said about one picture."""
-
-    pairs: tuple[Judgement, ...]
-
-    @classmethod
-    def from_file(cls, path: Path) -> Judgements:
-        """Read the JSON of *Intrinsic Images in the Wild*: `intrinsic_points` and `intrinsic_comparisons`.
-
-        Comparisons that people did not settle (no `darker`, no positive `darker_score`) are left out.
-
-        Raises:
-            UnreadableFile: the file is not JSON of that form.
-        """
-        try:
-            stored = json.loads(path.read_text(encoding="utf-8"))
-            places = {p["id"]: (float(p["x"]), float(p["y"])) for p in stored["intrinsic_points"]}
-            return cls(tuple(_settled(stored["intrinsic_comparisons"], places)))
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            reason = f"no judgements in the form of Intrinsic Images in the Wild ({type(error).__name__}: {error})"
-            raise UnreadableFile(path, reason) from None
 
 
 def whdr(albedo: Albedo, judgements: Iterable[Judgement], *, delta: float = 0.1) -> float:
@@ -77,10 +38,3 @@ def _at(lightness: np.ndarray[tuple[int, ...], np.dtype[np.float32]], point: tup
     height, width = lightness.shape
     column, row = (min(int(np.clip(p, 0, 1) * n), n - 1) for p, n in zip(point, (width, height), strict=True))
     return max(float(lightness[row, column]), _LEAST)
-
-
-def _settled(comparisons: Iterable[dict[str, Any]], places: dict[Any, tuple[float, float]]) -> Iterable[Judgement]:
-    for said in comparisons:
-        weight = said["darker_score"]
-        if said["darker"] in ("1", "2", "E") and weight is not None and weight > 0:
-            yield Judgement(places[said["point1"]], places[said["point2"]], said["darker"], float(weight))

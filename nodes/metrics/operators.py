@@ -11,9 +11,8 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes import metrics
-from graphface.nodes.colour import decode_srgb, encode_srgb
-from graphface.nodes.metrics.judgements import Judgements
-from graphface.nodes.types import Albedo, Direction, FloatArray, Image, Landmarks, Mask, Normals, Shading
+from graphface.nodes.color import decode_srgb, encode_srgb
+from graphface.nodes.types import Albedo, Direction, FloatArray, Image, Judgements, Landmarks, Mask, Normals, Shading
 
 Comparable = Image | Albedo | Shading
 

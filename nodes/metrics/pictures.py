@@ -11,10 +11,14 @@ from graphface.nodes.types import FloatArray, Mask
 
 Wide = NDArray[np.float64]
 
+
 _LEAST_ERROR = 1e-12
 """Mean squared error that stands for none: 120 dB."""
 
+
 _SCALE_WEIGHTS = (0.0448, 0.2856, 0.3001, 0.2363, 0.1333)
+
+
 _SSIM_REACH = 11
 
 

@@ -15,10 +15,13 @@ from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
 CHIN = 8
 """The jaw point that lies on the mid-line, and stays."""
 
+
 JAW_POINTS = 17
+
 
 _STATIONS = np.linspace(1.0, 0.35, 14)
 """Where on the way from the jaw point (1) to the mid-line (0) candidates lie."""
+
 
 _AXIS_BEHIND_EYES = 0.9
 """The vertical axis that the face is unrolled about, in eye distances behind the eye corners."""

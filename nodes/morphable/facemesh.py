@@ -1,29 +1,17 @@
-"""The face's geometry straight from the landmark network's own depth."""
+"""The 468 points of FaceMesh as a mesh."""
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import numpy as np
-from pydantic import Field
 
-from graphface import UsageError, node
+from graphface import UsageError
 from graphface.nodes.morphable.normals import vertex_normals
 from graphface.nodes.morphable.topology import cylinder, facemesh_topology
 from graphface.nodes.types import Camera, Landmarks, Mesh
 
 
-@node("geometry.facemesh")
-def facemesh(landmarks: Landmarks, *, depth: Annotated[float, Field(gt=0, le=4)] = 1.0) -> Mesh:
-    """A mesh of the 468 FaceMesh points, seen by a weak-perspective camera.
-
-    Args:
-        landmarks: scheme "facemesh468".
-        depth: factor on the network's z; below 1 the face gets flatter.
-
-    Returns:
-        468 vertices in the camera frame, one unit a pixel, origin at the mean point; the triangles of
-        `facemesh_topology`; normals weighted by the triangles' angles.
+def facemesh_mesh(landmarks: Landmarks, depth: float = 1.0) -> Mesh:
+    """The 468 points as a mesh in the camera frame; see `geometry.facemesh`.
 
     Raises:
         UsageError: the landmarks follow another scheme.

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import UsageError, warn
-from graphface.nodes.landmarks.given import UnusableLandmarks
-from graphface.nodes.landmarks.schemes import ibug68
+from graphface.nodes.landmark_schemes import UnusableLandmarks, ibug68
 from graphface.nodes.morphable.contour import CHIN, JAW_POINTS, jaw_lines, seen
 from graphface.nodes.morphable.focal import focal_length
 from graphface.nodes.morphable.mirror import mirror_vertices
@@ -20,35 +19,34 @@ from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
 from graphface.nodes.morphable.normals import vertex_normals
 from graphface.nodes.morphable.pose import Pose, closed_form
 from graphface.nodes.morphable.prior import Prepared, leading, prepare, standard
-from graphface.nodes.morphable.solve import (
-    NEAREST,
-    Follow,
-    Problem,
-    Solution,
-    View,
-    residuals,
-    solve,
-    view_cost,
-)
+from graphface.nodes.morphable.solve import NEAREST, Follow, Problem, Solution, View, residuals, solve, view_cost
 from graphface.nodes.types import Camera, FitRecord, Image, Landmarks, Mesh
 
 Array = NDArray[np.float64]
 
+
 CameraChoice = Literal["weak", "assumed", "estimated", "exif"]
+
+
 PriorChoice = Literal["mixture", "gaussian"]
+
 
 LEAST_POINTS = 6
 """Landmarks below which there is no fit: a pose has six unknowns, and each point gives two numbers."""
+
 
 _INDEPENDENT = 68
 """Points of a mesh err together: more of them than this tell no more. (Against path-traced heads, fitting the Surrey
 model to 459 points as if each erred alone makes the normals 4 degrees worse than fitting it to 66.)"""
 
+
 _STRAY = 0.05
 """How far an estimated inverse distance may stray from the assumed one: one standard deviation, per eye distance."""
 
+
 _POOR = 0.25
 """A residual above this, in eye distances, is not a fit of these points."""
+
 
 _THIN = 50.0
 """Points that lie this many times longer than wide do not determine a pose."""

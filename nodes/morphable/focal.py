@@ -7,6 +7,8 @@ import numpy as np
 from graphface.nodes.types import Image
 
 _EXIF_IFD, _FOCAL_35MM = 0x8769, 0xA405
+
+
 _DIAGONAL_35MM = float(np.hypot(36, 24))
 
 

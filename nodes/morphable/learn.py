@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import UsageError
-from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
+from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
 from graphface.nodes.morphable.align import aligned, procrustes_mean
 from graphface.nodes.morphable.model import Basis, MorphableModel, no_basis
 from graphface.nodes.morphable.prior import fit_mixture
@@ -26,8 +26,10 @@ from graphface.nodes.morphable.topology import Topology, cylinder, facemesh_topo
 
 Array = NDArray[np.float64]
 
+
 _STEEPEST = np.cos(np.radians(30))
 """Faces turned more than this are left out: the network's points shift with the turn."""
+
 
 _LEAST_OF_A_PERSON = 3
 """Photographs of one person from which their own mean is worth taking."""

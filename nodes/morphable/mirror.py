@@ -12,6 +12,7 @@ from graphface.nodes.morphable.model import MorphableModel
 _EXACT_TREE = 4
 """FLANN_INDEX_KDTREE_SINGLE, the one of its trees that always finds the nearest."""
 
+
 _TOLERANCE = 0.01
 """How far, in eye distances, a vertex may lie from its partner's mirror image."""
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import UsageError
-from graphface.nodes.landmarks.schemes import POINTS
+from graphface.nodes.landmark_schemes import POINTS
 from graphface.nodes.morphable.prior import Mixture
 from graphface.nodes.types import FloatArray
 

@@ -33,8 +33,10 @@ from graphface.nodes.types import FloatArray, Mask, Mesh, Normals, Surface
 
 Array = NDArray[np.float64]
 
+
 _STEEP = 0.7
 """Where the surface turns away from the front by more than this cosine, depth moves it by less than was wanted."""
+
 
 _LEAST_PIXELS = 2.0
 """Pixels of a face that a vertex must have for the face to count there."""

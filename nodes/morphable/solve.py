@@ -22,11 +22,14 @@ from graphface.nodes.morphable.prior import Prepared, quadratic
 
 Array = NDArray[np.float64]
 
+
 POSE = 7
 """Parameters of a view before its coefficients: turn (3), logarithm of the size, offset (2), inverse distance."""
 
+
 NEAREST = 1 / 3
 """The camera is kept at least three eye distances away."""
+
 
 _LEAST_DEPTH = 0.05
 """Denominator 1 - z n is kept above this: no vertex comes nearer to the camera than a twentieth of its distance."""

@@ -24,6 +24,8 @@ from graphface.nodes.morphable.prior import Mixture
 from graphface.nodes.morphable.subdivide import loop
 
 FORMAT = "graphface-morphable-1"
+
+
 _WORDS = ("format", "name", "identity_names", "expression_names", "part_names")
 
 

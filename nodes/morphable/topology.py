@@ -24,14 +24,18 @@ from numpy.typing import NDArray
 
 _FILE = Path(__file__).with_name("facemesh468.npz")
 
+
 EYE_CORNERS = (33, 263)
 """Outer corners of the right and the left eye."""
+
 
 FOREHEAD, CHIN = 10, 152
 """Points on the mid-line, at the top and at the bottom."""
 
+
 _AXIS_DEPTH = -1.16
 """z of the axis that shapes are unrolled about, in inter-ocular distances behind the mean point."""
+
 
 _LEAST_QUALITY = 0.25
 """Boundary triangles worse than this (1 is equilateral, 0 a line) lie in notches of the outline and are taken off."""

@@ -2,37 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import numpy as np
-from pydantic import Field
 
 from graphface import Lazy, Needs, node
-from graphface.nodes.colour import channel_mean
-from graphface.nodes.detail.rendering import in_three_channels
-from graphface.nodes.render.scene import Scene
+from graphface.nodes.color import in_three_channels
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Image, Mask, Segmentation, Shading
-
-Percent = Annotated[float, Field(ge=0, le=100)]
-
-
-@node("render.hair_shine")
-def hair_shine(photo: Image, labels: Segmentation, mask: Mask, *, dull: Percent = 50.0, bright: Percent = 97.0) -> Mask:
-    """Where hair is bright, which is where it shines: 0 elsewhere, up to the share of hair at its brightest pixels.
-
-    Args:
-        mask: the face by its geometry. There a bright pixel is rather a forehead taken for hair, and a patch of old
-            light amid the new would show: nothing shines where the mask is 1.
-        dull, bright: percentiles of the hair's intensity between which the answer rises from 0 to 1.
-    """
-    grey = channel_mean(photo.pixels)
-    of_hair = grey[labels.hair > 0.5]
-    if of_hair.size < 2:
-        return np.zeros_like(grey)
-    low, high = np.percentile(of_hair[:: max(1, of_hair.size // 20_000)], (dull, max(bright, dull)))
-    t = np.clip((grey - np.float32(low)) / np.float32(max(high - low, 0.02)), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t) * labels.hair * (1 - mask), np.float32)
+from graphface.nodes.types import FloatArray, Mask, Scene, Segmentation, Shading
 
 
 def _wanted(scene: Scene) -> Needs:
@@ -41,27 +16,6 @@ def _wanted(scene: Scene) -> Needs:
         "shine": scene.hair != 0 or "the scene lights hair like the face (hair: 0)",
         "response": scene.background != 1 or "without labels all is lit like the face (background: 1)",
     }
-
-
-@node("render.response")
-def response(
-    own: Shading, estimated: Shading, labels: Segmentation, *, floor: Annotated[float, Field(gt=0, le=1)] = 0.02
-) -> Mask:
-    """How much a pixel answers to added light: all of it on skin, less where it is dark by itself.
-
-    Beside the skin a pixel darker than the estimated light says is dark by itself (brown hair, a navy suit): intensity
-    as shading has put its darkness into `own`, and all its colour into the albedo. Light added as on skin would make it
-    glow in that colour, so there added light counts in proportion to `own` over `estimated`: as in the ratio.
-
-    Args:
-        own: the photo's own shading, H x W.
-        estimated: shading under the photo's estimated light, H x W or H x W x 3.
-
-    Returns:
-        1 where the label is face; elsewhere own / estimated, at most 1.
-    """
-    share = np.clip(own / np.maximum(channel_mean(estimated), np.float32(floor)), 0, 1)
-    return np.asarray(1 + (share - 1) * (1 - labels.face), np.float32)
 
 
 @node("render.composite", needs=_wanted)

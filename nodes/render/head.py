@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import node, warn
-from graphface.nodes.masks.head import CRANIUM
+from graphface.nodes.head_shape import CRANIUM
 from graphface.nodes.morphable.normals import vertex_normals
 from graphface.nodes.morphable.topology import FOREHEAD, facemesh_topology
 from graphface.nodes.render.neck import Points, Solid, grid_triangles, neck, underside
@@ -23,18 +23,23 @@ from graphface.nodes.types import Mesh
 _LEAST_POINTS = 100
 """Points of FaceMesh that must be known on a mesh to say how the head stands."""
 
+
 _BEHIND = 0.2
 """How far the skull stays behind the middle of the face, as a share of its size, so that it does not poke through."""
 
+
 _TEMPLE, _FREE = 0.25, 0.35
 """Height of the temples in the mean face's frame; how far the skull stays behind the jaw, as a share of its size."""
+
 
 _NEAR, _REACH = 0.12, 0.4
 """Angles, seen from the middle of the skull, over which the skull follows the face's rim, and after which it no longer
 does."""
 
+
 _JAW = 0.05
 """Height in the mean face's frame below which the rim of the mesh is the edge of the jaw."""
+
 
 _STRANGE = 0.2
 """Root mean square distance from the posed mean face, in its unit, above which points are not FaceMesh's."""

@@ -8,17 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import UsageError
-from graphface.nodes.render.lights import (
-    Casting,
+from graphface.nodes.harmonics import basis, rotated
+from graphface.nodes.types import (
     DirectionalLight,
     EnvironmentLight,
+    FloatArray,
     HarmonicLight,
+    Lighting,
     PointLight,
+    Scene,
     SpotLight,
 )
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.sh import basis, rotate
-from graphface.nodes.types import FloatArray, Lighting
+from graphface.nodes.types.lights import Casting
 
 
 def irradiance(
@@ -28,7 +29,7 @@ def irradiance(
     visible: Mapping[int, FloatArray] | None = None,
     panorama: Lighting | None = None,
 ) -> FloatArray:
-    """What unit normals (n, 3) receive: (n,), or (n, 3) where a light is coloured. Never negative.
+    """What unit normals (n, 3) receive: (n,), or (n, 3) where a light is colored. Never negative.
 
     Args:
         points: (n, 3), inter-ocular distances from the middle of the face; near lights need them, without them
@@ -78,7 +79,7 @@ def _surroundings(light: EnvironmentLight, normals: NDArray[np.float32], panoram
         return np.zeros((len(normals), 1), np.float32)
     if panorama is None:
         raise UsageError("the scene has an environment light; give the graph's input `environment` a panorama")
-    return _harmonic(rotate(panorama, azimuth=light.azimuth).coefficients, normals)
+    return _harmonic(rotated(panorama, azimuth=light.azimuth).coefficients, normals)
 
 
 def _harmonic(values: FloatArray, normals: NDArray[np.float32]) -> FloatArray:

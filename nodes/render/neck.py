@@ -1,6 +1,6 @@
 """The underside of the jaw, the neck and its foot, for a face mesh that ends at the jaw.
 
-All in the mean face's frame (see `graphface.nodes.masks.head`): unit = distance between the outer eye corners, x to the
+All in the mean face's frame (see `graphface.nodes.head_shape`): unit = distance between the outer eye corners, x to the
 picture's right, y up, z to the viewer.
 """
 
@@ -12,8 +12,11 @@ from numpy.typing import NDArray
 from graphface.nodes.morphable.normals import vertex_normals
 
 Points = NDArray[np.float64]
+
+
 Solid = tuple[Points, Points, NDArray[np.int32]]
 """Vertices (n, 3), unit normals (n, 3), triangles (m, 3) counter-clockwise seen from outside."""
+
 
 SECTIONS = (
     # height, half breadth, z of the front, z of the back
@@ -24,20 +27,24 @@ SECTIONS = (
     (-1.38, 1.01, -0.45, -1.92),
 )
 """Ellipses. Their shape is that of the neck of ICT-FaceKit's mean head (MIT), measured level by level and rounded;
-their place under the chin is that of the anthropometric neck in `graphface.nodes.masks.head`. They end where the neck
+their place under the chin is that of the anthropometric neck in `graphface.nodes.head_shape`. They end where the neck
 does: shoulders need not face as the head does, and a head's shadow on shoulders that are elsewhere is a blotch.
 
 On path-traced heads 28.5 against 28.1 dB for a plain cylinder, 26.0 against 25.5 with light from above. (Going on with
 shoulders of average breadth adds nothing.)"""
 
+
 _DROP = 0.10
 """How far below its edge the underside of the jaw meets the neck."""
+
 
 _ROUND = 0.12
 """Length over which the jaw's edge is rounded, as far as it leads on in the direction of the face."""
 
+
 _SUNK = 0.03
 """How far the underside reaches into the neck, as a share of its radius: no gap for light to get through."""
+
 
 _STEPS = 6
 

@@ -8,11 +8,10 @@ import numpy as np
 from pydantic import Field
 
 from graphface import Lazy, Needs, UsageError, node
-from graphface.nodes.blend import recombine
-from graphface.nodes.colour import decode_srgb, encode_srgb
-from graphface.nodes.render.scene import Scene
+from graphface.nodes.color import decode_srgb, encode_srgb
+from graphface.nodes.rendering import recombined
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import Albedo, DetailMap, Image, Shading
+from graphface.nodes.types import Albedo, DetailMap, Image, Scene, Shading
 
 
 def _wanted(scene: Scene) -> Needs:
@@ -45,7 +44,7 @@ def relit(
         return photo
     if albedo is None or shading is None or detail is None:
         raise UsageError("render.relit needs albedo, shading and detail unless the scene leaves the photo as it is")
-    image = recombine(photo, albedo, shading, detail, shoulder=shoulder)
+    image = recombined(photo, albedo, shading, detail, shoulder=shoulder)
     if highlights is None or not highlights.any():
         return image
     if photo.encoding == "linear":

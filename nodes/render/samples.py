@@ -6,7 +6,6 @@ depends on the scene: an editor computes it once and shades it for every edit.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -14,68 +13,10 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.colour import decode_srgb
-from graphface.nodes.render.places import grid_middles, lifted_pixels
-from graphface.nodes.sh import has_surface
-from graphface.nodes.types import Encoding, FloatArray, Image, Mask, Mesh, Shading, Surface
-
-
-@dataclass(frozen=True)
-class Samples:
-    """n points of a surface and what is known there before any new light (a G-buffer, packed).
-
-    `picture` and `grid` are heights and widths; `cells` and `pixels` intp (n,) the points' places in the two, counted
-    row by row. `normals` (n, 3) unit length; `points` (n, 3) in the camera frame, inter-ocular distances, all 0 where
-    they are not known. `before` is the photo's own shading, (n,) or (n, 3), in `encoding`; `irradiance` the same in
-    linear light, not negative; `weights` (n,) the face's mask. `rim` are cells beside the surface, and `rim_weights`
-    what the sum over the 3 x 3 cells around them must be multiplied by to be the mean of those on the surface.
-    `coverage` H x W is 1 on the surface.
-    """
-
-    picture: tuple[int, int]
-    grid: tuple[int, int]
-    cells: NDArray[np.intp]
-    pixels: NDArray[np.intp]
-    normals: FloatArray
-    points: FloatArray
-    before: FloatArray
-    irradiance: FloatArray
-    weights: FloatArray
-    rim: NDArray[np.intp]
-    rim_weights: FloatArray
-    coverage: Mask
-    encoding: Encoding
-
-    def on_grid(self, values: FloatArray) -> FloatArray:
-        """Values (n,) or (n, c) as maps h x w or h x w x c: continued by one cell beyond the surface, else 0.
-
-        The rim lets a map be enlarged without the nothing beyond the surface darkening its edge.
-        """
-        import cv2
-
-        extra = values.shape[1:]
-        flat = np.zeros((self.grid[0] * self.grid[1], *extra), np.float32)
-        flat[self.cells] = values
-        around = np.asarray(cv2.boxFilter(self._map(flat), -1, (3, 3), normalize=False, borderType=cv2.BORDER_CONSTANT))
-        weights = self.rim_weights.reshape(-1, *[1] * len(extra))
-        flat[self.rim] = around.reshape(flat.shape).take(self.rim, axis=0) * weights
-        return self._map(flat)
-
-    def _map(self, flat: FloatArray) -> FloatArray:
-        return flat.reshape(*self.grid, *flat.shape[1:])
-
-    def at_points(self, map_: FloatArray) -> FloatArray:
-        """A map h x w read at the points: (n,)."""
-        return map_.reshape(-1).take(self.cells)
-
-    def enlarged(self, map_: FloatArray) -> FloatArray:
-        """A map of the grid at the picture's size, bilinear."""
-        import cv2
-
-        if self.grid == self.picture:
-            return map_
-        height, width = self.picture
-        return np.asarray(cv2.resize(map_, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
+from graphface.nodes.color import decode_srgb
+from graphface.nodes.harmonics import has_surface
+from graphface.nodes.pixel_grid import grid_middles, lifted_pixels
+from graphface.nodes.types import FloatArray, Image, Mask, Mesh, Samples, Shading, Surface
 
 
 @node("render.samples")

@@ -8,14 +8,10 @@ import numpy as np
 from pydantic import Field
 
 from graphface import Lazy, Needs, node
-from graphface.nodes.colour import encode_srgb
-from graphface.nodes.detail.rendering import in_three_channels
+from graphface.nodes.color import encode_srgb, in_three_channels
 from graphface.nodes.render.irradiance import irradiance
-from graphface.nodes.render.samples import Samples
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Lighting, Mask, Shading
+from graphface.nodes.types import FloatArray, Lighting, Mask, Samples, Scene, Shading, Shadows
 
 
 def needs_of_lights(scene: Scene) -> Needs:
@@ -52,7 +48,7 @@ def shade(
         floor: least mean irradiance, in the photo's unit, that `keep_mean` scales up; a darker scene stays darker.
 
     Returns:
-        float32 in the photo's encoding, H x W, or H x W x 3 where the scene (or the estimate) is coloured; 0 where
+        float32 in the photo's encoding, H x W, or H x W x 3 where the scene (or the estimate) is colored; 0 where
         there is no surface.
     """
     old, before = samples.irradiance, samples.before

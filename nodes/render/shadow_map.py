@@ -21,12 +21,15 @@ from graphface.nodes.types import FloatArray
 _NEAR = 0.05
 """Nothing nearer to the light than this casts a shadow, inter-ocular distances."""
 
+
 _TEXELS = 1.5
 """Least lift in texels. A texel off across the light is its width times the tangent of the angle of incidence off in
 depth; lifting a point by d along its normal gains d over the cosine, which is more at every angle."""
 
+
 _AT_A_TIME = 1 << 14
 """Points looked up together, so that what is computed for them stays in the processor's cache."""
+
 
 _WIDEST = np.radians(150.0)
 """Field of view of a map whose light stands in or at the face."""

@@ -8,15 +8,13 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.render.lights import Casting, DirectionalLight
-from graphface.nodes.render.samples import Samples
-from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shadow_map import disc, lit_share
-from graphface.nodes.render.visibility import Shadows
-from graphface.nodes.types import FloatArray, Mesh
+from graphface.nodes.types import DirectionalLight, FloatArray, Mesh, Samples, Scene, Shadows
+from graphface.nodes.types.lights import Casting
 
 _SUN = 40.0
 """Where a directional light is put, inter-ocular distances: its rays then part by a degree or two across the face."""
+
 
 _LARGEST = np.radians(45.0)
 """Angle to the edge beyond which a light's shadow gets no softer: nothing of it is left to see."""

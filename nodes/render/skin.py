@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from graphface import Lazy, Needs, UsageError, node
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.types import Shading
+from graphface.nodes.types import Scene, Shading
 
 
 def _wanted(scene: Scene) -> Needs:

@@ -6,18 +6,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import Lazy, node
-from graphface.nodes.detail.rendering import in_three_channels
+from graphface.nodes.color import in_three_channels
 from graphface.nodes.render.irradiance import arriving, irradiance, towards_light
-from graphface.nodes.render.lights import EnvironmentLight, HarmonicLight
-from graphface.nodes.render.samples import Samples
-from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shade import light_gain, needs_of_lights, seen_shares
-from graphface.nodes.render.visibility import Shadows
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Lighting, Mask, Shading
+from graphface.nodes.types import (
+    EnvironmentLight,
+    FloatArray,
+    HarmonicLight,
+    Lighting,
+    Mask,
+    Samples,
+    Scene,
+    Shading,
+    Shadows,
+)
 
 NORMAL_REFLECTANCE = 0.028
 """Fresnel reflectance of skin head-on (index of refraction 1.4)."""
+
 
 _SKIN_ALBEDO = 0.4
 """Diffuse reflectance that the photo's brightness is taken to stand for, where highlights are compared with it."""

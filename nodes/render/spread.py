@@ -10,85 +10,14 @@ inter-ocular distance has `resolution` pixels; on the face itself the full-resol
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated
-
 import numpy as np
-from numpy.typing import NDArray
-from pydantic import Field
 
-from graphface import node, warn
+from graphface import node
 from graphface.nodes.blur import blurred
-from graphface.nodes.detail.rendering import in_three_channels
-from graphface.nodes.render.scene import Scene
+from graphface.nodes.color import in_three_channels
+from graphface.nodes.render.beyond import cell_means
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Landmarks, Mask, Shading, Surface
-
-Length = Annotated[float, Field(gt=0, le=10)]
-Resolution = Annotated[int, Field(ge=8, le=256)]
-
-
-@dataclass(frozen=True)
-class Surroundings:
-    """How a shading goes on beyond a face: all of `render.spread` that the light does not change.
-
-    `weight` H x W is the soft mask where there is a surface. The small copy has cells of `cell` x `cell` pixels, h x w
-    of them; the face lies in the cells `window` (top, bottom, left, right). `total` are the weight's means over the
-    window's cells; `nearest` intp h x w, the place of the face cell that each cell copies, counted row by row in the
-    window; `far` h x w, 0..1, how much of the wider of two blurs it takes; `sigma`, the narrower's width in cells.
-    Without a face all but `weight` are empty.
-    """
-
-    weight: Mask
-    cell: int
-    window: tuple[int, int, int, int]
-    total: FloatArray
-    nearest: NDArray[np.intp]
-    far: FloatArray
-    sigma: float
-
-
-@node("render.surroundings")
-def surroundings(
-    mask: Mask,
-    surface: Surface,
-    landmarks: Landmarks,
-    *,
-    smoothing: Length = 0.25,
-    resolution: Resolution = 32,
-) -> Surroundings:
-    """Which face pixel each pixel beyond the face is nearest to, and how smoothly it takes after it.
-
-    Args:
-        mask: the face; between 0 and 1 its shading goes over into the continued one.
-        surface: only where it covers the picture is the shading known.
-        smoothing: width of the blur beside the face, in inter-ocular distances; it triples with distance.
-        resolution: least cells per inter-ocular distance of the small copy that is worked on.
-    """
-    weight = mask * (surface.coverage > 0)
-    cell = max(1, min(int(landmarks.interocular / resolution), *weight.shape))
-    total = _means(weight, cell)
-    sigma = max(smoothing * landmarks.interocular / cell, 0.5)
-    core = _core(total)
-    if core is None:
-        warn(
-            "render.surroundings: the mask is empty; shading is taken as 0 everywhere, so no light changes the picture"
-        )
-        nothing = np.zeros((0, 0), np.float32)
-        return Surroundings(weight, cell, (0, 0, 0, 0), nothing, np.zeros((0, 0), np.intp), nothing, sigma)
-    nearest, distance = _nearest(core)
-    down, across = (np.flatnonzero(core.any(axis=axis)) for axis in (1, 0))
-    top, bottom, left, right = window = (int(down[0]), int(down[-1]) + 1, int(across[0]), int(across[-1]) + 1)
-    row, column = np.divmod(nearest, core.shape[1])
-    return Surroundings(
-        weight=weight,
-        cell=cell,
-        window=window,
-        total=np.ascontiguousarray(total[top:bottom, left:right]),
-        nearest=(row - top) * (right - left) + (column - left),
-        far=_smooth_step(distance / np.float32(4 * sigma)),
-        sigma=sigma,
-    )
+from graphface.nodes.types import FloatArray, Mask, Shading, Surroundings
 
 
 @node("render.spread")
@@ -136,95 +65,8 @@ def _on_face(shading: Shading, surroundings: Surroundings) -> FloatArray:
         np.multiply(seen[rows], _like(weight[rows], shading), out=weighted[rows])
 
     by_strips(strip, weighted.shape)
-    return _means(weighted, cell) / _like(np.maximum(surroundings.total, np.float32(1e-12)), shading)
-
-
-def _means(values: FloatArray, cell: int) -> FloatArray:
-    """Means over cells of so many pixels squared; what a cell has beyond the picture counts as 0."""
-    import cv2
-
-    height, width = values.shape[:2]
-    rows, columns = -(-height // cell), -(-width // cell)
-    padding = (0, rows * cell - height, 0, columns * cell - width)
-    if any(padding):
-        values = np.asarray(cv2.copyMakeBorder(values, *padding, cv2.BORDER_CONSTANT, value=0), np.float32)
-    return np.asarray(cv2.resize(values, (columns, rows), interpolation=cv2.INTER_AREA), np.float32)
+    return cell_means(weighted, cell) / _like(np.maximum(surroundings.total, np.float32(1e-12)), shading)
 
 
 def _like(weight: Mask, shading: Shading) -> FloatArray:
     return in_three_channels(weight) if shading.ndim == 3 else weight
-
-
-@node("render.background")
-def background(
-    estimated: Shading,
-    relit: Shading,
-    mask: Mask,
-    landmarks: Landmarks,
-    scene: Scene,
-    *,
-    near: Annotated[float, Field(ge=0, le=10)] = 0.6,
-    far: Length = 2.5,
-    resolution: Resolution = 16,
-) -> Shading:
-    """Mix new and old shading far from the face, which the face's light says little about.
-
-    Args:
-        estimated, relit: both spread over the whole picture; H x W or H x W x 3.
-        scene: `scene.background` is the share of the new shading far away.
-        near, far: distances from the face, in inter-ocular distances, between which the share falls from 1 to that.
-
-    Returns:
-        `relit` at the face; further away estimated + share * (relit - estimated).
-    """
-    if scene.background == 1 or estimated is relit:
-        return relit
-    unit = max(landmarks.interocular, 1e-3)
-    scale = min(1.0, resolution / unit)
-    small_mask = _shrunk(mask, scale)
-    core = _core(small_mask)
-    if core is None:
-        return relit
-    _, distance = _nearest(core)
-    fall = _smooth_step((distance / (unit * scale) - near) / max(far - near, 1e-3))
-    share = _enlarged(1 - (1 - scene.background) * fall, mask.shape)
-    if estimated.ndim < relit.ndim:
-        estimated = estimated[..., None]
-    mixed: Shading = estimated + share.reshape(*share.shape, *[1] * (relit.ndim - 2)) * (relit - estimated)
-    return mixed
-
-
-def _shrunk(values: FloatArray, scale: float) -> FloatArray:
-    """Area means in a smaller copy."""
-    import cv2
-
-    height, width = (max(1, round(n * scale)) for n in values.shape[:2])
-    return np.asarray(cv2.resize(values, (width, height), interpolation=cv2.INTER_AREA), np.float32)
-
-
-def _core(weight: FloatArray) -> NDArray[np.bool_] | None:
-    """The pixels that others copy: well inside the mask, or its best where it is faint everywhere; None: no mask."""
-    most = float(weight.max())
-    return weight >= min(0.5, most) if most > 1e-12 else None
-
-
-def _nearest(core: NDArray[np.bool_]) -> tuple[NDArray[np.intp], FloatArray]:
-    """The place of each pixel's nearest core pixel, counted row by row, and the distance to it in pixels."""
-    import cv2
-
-    outside = (~core).astype(np.uint8)
-    distance, labels = cv2.distanceTransformWithLabels(outside, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
-    place = np.zeros(int(labels.max()) + 1, np.intp)
-    place[labels[core]] = np.flatnonzero(core)
-    return place[labels], np.asarray(distance, np.float32)
-
-
-def _smooth_step(t: FloatArray) -> FloatArray:
-    t = np.clip(t, 0, 1)
-    return t * t * (3 - 2 * t)
-
-
-def _enlarged(values: FloatArray, shape: tuple[int, ...]) -> FloatArray:
-    import cv2
-
-    return np.asarray(cv2.resize(values, (shape[1], shape[0]), interpolation=cv2.INTER_LINEAR), np.float32)

@@ -6,13 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from graphface.nodes.colour import decode_srgb, encode_srgb
-from graphface.nodes.render.places import grid_middles
+from graphface.nodes.color import decode_srgb, encode_srgb
+from graphface.nodes.pixel_grid import grid_middles
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
 
 FINEST = 64.0
 """Points per inter-ocular distance of the grid: the widest Gaussian of skin is two of them."""
+
 
 Blur = Callable[[FloatArray, FloatArray, FloatArray, float], FloatArray]
 """Change h x w x c, inside and depth h x w, points per inter-ocular distance: the smoothed change, h x w x c or 3."""

@@ -5,16 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from graphface import node
-from graphface.nodes.render.scene import Scene
 from graphface.nodes.scatter.change import smoothed_change
-from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
+from graphface.nodes.types import FloatArray, Image, Landmarks, Scene, Shading, Surface
 
 
 @node("scatter.gaussian")
 def gaussian(
     shading: Shading, estimated: Shading, surface: Surface, landmarks: Landmarks, photo: Image, scene: Scene
 ) -> Shading:
-    """One Gaussian of `scene.scatter` inter-ocular distances for all colours; nothing leaks in over the silhouette.
+    """One Gaussian of `scene.scatter` inter-ocular distances for all colors; nothing leaks in over the silhouette.
 
     Args:
         shading, estimated: under the new and the photo's own light, H x W or H x W x 3, in the photo's encoding.

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from graphface import node
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.types import Image, Landmarks, Shading, Surface
+from graphface.nodes.types import Image, Landmarks, Scene, Shading, Surface
 
 
 @node("scatter.none")

@@ -13,10 +13,9 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.detail.rendering import in_three_channels
-from graphface.nodes.render.scene import Scene
+from graphface.nodes.color import in_three_channels
 from graphface.nodes.scatter.change import smoothed_change
-from graphface.nodes.types import FloatArray, Image, Landmarks, Shading, Surface
+from graphface.nodes.types import FloatArray, Image, Landmarks, Scene, Shading, Surface
 
 PROFILE = (
     # Variance in mm^2; weights of red, green, blue.
@@ -27,8 +26,11 @@ PROFILE = (
     (1.99, (0.358, 0.004, 0.0)),
     (7.41, (0.078, 0.0, 0.0)),
 )
+
+
 WIDEST = float(np.sqrt(PROFILE[-1][0]))
 """Standard deviation of the widest Gaussian, mm: what `scene.scatter` sets. On a face it is 0.03 eye distances."""
+
 
 _NARROWEST = 0.35
 """Standard deviation in points below which a Gaussian is as good as none."""

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.sh.rendering import render
+from graphface.nodes.sh.render import render
 from graphface.nodes.types import FloatArray, Image, Lighting, Normals
 
 

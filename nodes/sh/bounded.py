@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.sh.harmonics import basis, sphere_points
+from graphface.nodes.harmonics import basis, sphere_points
 
 DIRECTIONS = 600
 

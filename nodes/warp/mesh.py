@@ -12,20 +12,23 @@ from graphface import UsageError, node, warn
 from graphface.nodes.blur import blurred
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Mask, Mesh, Surface
-from graphface.nodes.warp.correspondence import Correspondence, Pins
+from graphface.nodes.types import Correspondence, FloatArray, Mask, Mesh, Pins, Surface
 
 Hidden = Literal["mirror", "input"]
+
 
 _UNSEEN = 0.05
 """What counts as not seen at all, 0..1: two photos that both do not show a point are equally good."""
 
+
 _STANDS_IN = 0.7
 """How far the reference must show a point for its mirror image not to be asked."""
+
 
 _FADE = 0.04
 """Width of the way from a point to its mirror image, inter-ocular distances, on the side where the point is shown: on
 the other side the reference may be anything."""
+
 
 _OUTLINE = 0.06
 """Distance from the mesh's outline, inter-ocular distances, below which a place may show what is behind the face."""

@@ -74,7 +74,7 @@ class TestTop:
         def broken(*_: object, **__: object) -> None:
             raise KeyError("oops")
 
-        monkeypatch.setattr("graphface.graph.graph.load", broken)
+        monkeypatch.setattr("graphface.facade.load", broken)
         said = graphface("plan", "x.yaml")
         assert said.code == 1
         assert "GRAPHFACE_TRACEBACK" in said.err

@@ -7,8 +7,8 @@ import pytest
 
 from graphface import Graph
 from graphface.document.document import TAKEN, Document, parse_document, read_document
-from graphface.document.located import Source
 from graphface.errors import DocumentError, Problem, UnreadableFile
+from graphface.place import Source
 
 
 def read(text: str) -> tuple[Document, list[Problem]]:

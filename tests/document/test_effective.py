@@ -10,7 +10,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from graphface import Graph, Registry, load
-from graphface.document.effective import effective
 
 INNER = """\
 graphface: 1
@@ -64,7 +63,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def again(graph: Graph, *, origins: bool = True) -> Graph:
-    return load(effective(graph, origins=origins), registry=graph.registry)
+    return load(graph.effective(origins=origins), registry=graph.registry)
 
 
 def place(name: str, text: str, fragment: str) -> str:
@@ -75,8 +74,8 @@ def place(name: str, text: str, fragment: str) -> str:
 
 def keys(graph: Graph, **inputs: Any) -> dict[str, bytes]:
     """The key of every node by its name."""
-    found = graph.keys(graph.bind(inputs))
-    return {step.name: found[step.slot] for step in graph.steps}
+    asked = graph.request(inputs)
+    return {step.name: asked.key(step.slot) for step in graph.steps}
 
 
 def text_of(nodes: str, inputs: str = "") -> str:
@@ -116,16 +115,16 @@ class TestRoundTrip:
     def test_fixed_point(self, folder: Path, registry: Registry, choices: dict[str, Any]) -> None:
         """The effective document of an effective document is itself."""
         graph = load(folder / "outer.yaml", registry=registry, **choices)
-        assert effective(again(graph), origins=False) == effective(graph, origins=False)
+        assert again(graph).effective(origins=False) == graph.effective(origins=False)
 
     def test_removed(self, folder: Path, registry: Registry) -> None:
         """A node that was removed is not in it."""
-        assert "gone" not in effective(load(folder / "outer.yaml", registry=registry))
+        assert "gone" not in load(folder / "outer.yaml", registry=registry).effective()
 
     def test_needs_no_other_file(self, folder: Path, registry: Registry) -> None:
         """It is whole: no file it was made from is needed to load it."""
         graph = load(folder / "outer.yaml", registry=registry)
-        text = effective(graph)
+        text = graph.effective()
         for file in folder.iterdir():
             file.unlink()
         assert load(text, registry=registry).outputs.keys() == graph.outputs.keys()
@@ -133,9 +132,9 @@ class TestRoundTrip:
     def test_comments_have_no_part(self, folder: Path, registry: Registry) -> None:
         """Comments of the files it was made from change nothing, origins apart."""
         graph = load(folder / "outer.yaml", registry=registry)
-        before = effective(graph, origins=False)
+        before = graph.effective(origins=False)
         (folder / "outer.yaml").write_text(OUTER.replace("# a comment", "# weights: [1,\n#"), encoding="utf-8")
-        assert effective(load(folder / "outer.yaml", registry=registry), origins=False) == before
+        assert load(folder / "outer.yaml", registry=registry).effective(origins=False) == before
 
     def test_empty(self, registry: Registry) -> None:
         """A graph without nodes is one all the same."""
@@ -178,7 +177,7 @@ class TestWires:
 
     def test_fields(self, folder: Path, registry: Registry) -> None:
         """A wire to a field inside a nested graph keeps both."""
-        assert "in: {grid: first/pair.low}" in effective(load(folder / "outer.yaml", registry=registry))
+        assert "in: {grid: first/pair.low}" in load(folder / "outer.yaml", registry=registry).effective()
 
 
 class TestInputs:
@@ -210,13 +209,13 @@ class TestInputs:
 class TestOrigins:
     def test_file(self, folder: Path, registry: Registry) -> None:
         """A value from a file says file, line and column."""
-        shown = effective(load(folder / "outer.yaml", registry=registry))
+        shown = load(folder / "outer.yaml", registry=registry).effective()
         assert f"plus: 3  # {place('base', BASE, 'plus: 3')}" in shown
         assert f"plus: 2  # {place('outer', OUTER, 'plus.plus: 2')}" in shown
 
     def test_overlay(self, folder: Path, registry: Registry) -> None:
         """A value from a variant or profile says where that stands."""
-        shown = effective(load(folder / "outer.yaml", registry=registry, variants=["bigger"], profiles=["fine"]))
+        shown = load(folder / "outer.yaml", registry=registry, variants=["bigger"], profiles=["fine"]).effective()
         assert f"plus: 5  # {place('outer', OUTER, 'plus.plus: 5')}" in shown
         assert f"size: 6  # {place('inner', INNER, 'size: 6')}" in shown
         assert f"size: 7  # {place('outer', OUTER, 'size: 7')}" in shown
@@ -224,7 +223,7 @@ class TestOrigins:
     def test_flags(self, folder: Path, registry: Registry) -> None:
         """A value from a flag says which."""
         graph = load(folder / "outer.yaml", registry=registry, set={"kept.plus": 8}, replace={"mean": "toy.takes_none"})
-        shown = effective(graph)
+        shown = graph.effective()
         assert "plus: 8  # --set" in shown
         assert "use: toy.takes_none  # --replace" in shown
 

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.document.located import MAX_DEPTH, Map, Place, Seq, Source, parse, scalar
+from graphface.document.located import MAX_DEPTH, Map, Seq, parse, scalar
 from graphface.errors import DocumentError, Problem
+from graphface.place import Place, Source
 
 
 def read(text: str) -> Map:

@@ -9,9 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from graphface.document.located import Source, parse
+from graphface.document.located import parse
 from graphface.document.mistakes import mistakes
 from graphface.errors import Problem
+from graphface.place import Source
 
 
 class Part(BaseModel):

@@ -9,8 +9,7 @@ import pytest
 
 from graphface import DocumentError, UnreadableFile, load
 from graphface.cli import main
-from graphface.document.effective import effective
-from graphface.document.provenance import KEY, provenance, read_provenance
+from graphface.document.provenance import KEY, read_provenance
 from graphface.nodes.types import Image, Mask, Normals
 from graphface.registry import default_registry
 from graphface.values.port_types import port_type
@@ -72,7 +71,7 @@ class TestCarried:
         )
         assert code == 0
         graph = load("halve.yaml", set={"small.long_side": 9})
-        assert read_provenance(Path(f"r.{suffix}"), default_registry()) == effective(graph, origins=False)
+        assert read_provenance(Path(f"r.{suffix}"), default_registry()) == graph.effective(origins=False)
 
     @pytest.mark.parametrize("suffix", ["png", "jpg", "tif", "webp"])
     def test_rerun(self, folder: Path, command: Any, suffix: str) -> None:
@@ -107,7 +106,7 @@ class TestCarried:
         """Texts in any script come back."""
         graph = load({"graphface": 1, "doc": 'Größe "α" <&> \u2028 \U0001f600 ]]>\n'})
         for suffix in ("png", "jpg", "tif", "webp"):
-            path = picture_with(tmp_path / f"a.{suffix}", provenance(graph)[KEY])
+            path = picture_with(tmp_path / f"a.{suffix}", graph.provenance()[KEY])
             assert load(path).composition.doc == graph.composition.doc
 
     def test_large(self, tmp_path: Path) -> None:
@@ -115,7 +114,7 @@ class TestCarried:
         small = {"use": "image.resize", "with": {"long_side": 9}}
         nodes = {f"n{i}": {**small, "in": {"photo": f"n{i - 1}" if i else "photo"}} for i in range(500)}
         graph = load({"graphface": 1, "inputs": {"photo": "Image"}, "nodes": nodes})
-        assert len(load(picture_with(tmp_path / "a.png", provenance(graph)[KEY])).steps) == 500
+        assert len(load(picture_with(tmp_path / "a.png", graph.provenance()[KEY])).steps) == 500
 
 
 class TestNotCarried:
@@ -189,7 +188,7 @@ class TestHostile:
         import json
         import zlib
 
-        from graphface.nodes import image_text
+        from graphface.nodes.io import image_text
 
         bomb = zlib.compress(json.dumps({KEY: "a" * (image_text.MAX_TEXT + 100)}).encode(), 9)
         plain = image_text.packed

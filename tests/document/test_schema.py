@@ -13,9 +13,10 @@ from toys import toy_registry
 
 from graphface import DocumentError, Registry, load, node
 from graphface.cli import main
-from graphface.document.located import Source, parse, plain
+from graphface.document.graph_files import shipped_folders
+from graphface.document.located import parse, plain
 from graphface.document.schema import graph_schema
-from graphface.graph.graph import shipped_folders
+from graphface.place import Source
 from graphface.registry import default_registry
 
 

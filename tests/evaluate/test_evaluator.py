@@ -360,7 +360,7 @@ class TestFailures:
 
         bound["x"].load = load
         with pytest.raises(InputError) as caught:
-            quick.evaluator.run(graph, bound, graph.targets(["s"]))
+            quick.evaluator.run(graph.request(bound, ["s"]))
         assert caught.value.name == "x"
 
     def test_failing_observer(self, quick: Lab) -> None:
@@ -503,11 +503,13 @@ class TestImmutability:
         assert not result.low.flags.writeable
         assert not result.high.flags.writeable
 
-    def test_caller_array_is_not_copied(self, quick: Lab) -> None:
-        """An array passes through without a copy."""
+    @pytest.mark.parametrize("writable", [True, False])
+    def test_copied_only_where_writable(self, quick: Lab, writable: bool) -> None:
+        """An array that nobody can write to passes through without a copy; any other is copied."""
         graph = quick.load("s: {use: toy.same, in: {value: x}}", inputs="x: Grid")
         given = np.zeros((3, 3))
-        assert np.shares_memory(quick.run(graph, ["s"], x=given)["s"], given)
+        given.flags.writeable = writable
+        assert np.shares_memory(quick.run(graph, ["s"], x=given)["s"], given) is not writable
 
     def test_caller_writes_later(self, lab: Lab) -> None:
         """What the caller writes into an array after a run cannot reach memoized values."""

@@ -41,14 +41,14 @@ def pairs(registry: Registry):
 class TestRunOver:
     def test_every_combination(self, pairs):
         """The last input varies fastest, and every combination is made."""
-        made = run_over(pairs, Evaluator(), {"x": [1.0, 2.0], "y": [10.0, 20.0]}, {}, pairs.targets())
+        made = run_over(pairs, Evaluator(), {"x": [1.0, 2.0], "y": [10.0, 20.0]}, {}, pairs.outputs)
         assert [m.result["sum"] for m in made] == [11, 21, 12, 22]
 
     def test_what_is_common_is_computed_once(self, pairs, ran: list[str]):
         """Ten values by ten values compute ten and ten halves and a hundred sums."""
         values = [float(n) for n in range(10)]
         others = [n + 100 for n in values]
-        made = list(run_over(pairs, Evaluator(memory=MemoryTier()), {"x": values, "y": others}, {}, pairs.targets()))
+        made = list(run_over(pairs, Evaluator(memory=MemoryTier()), {"x": values, "y": others}, {}, pairs.outputs))
         assert len(made) == 100
         assert {label: ran.count(label) for label in ("left", "right", "both")} == {
             "left": 10,
@@ -58,12 +58,12 @@ class TestRunOver:
 
     def test_no_map_is_one_run(self, pairs):
         """Without anything to map over there is one combination: the given inputs."""
-        made = list(run_over(pairs, Evaluator(), {}, {"x": 1.0, "y": 2.0}, pairs.targets()))
+        made = list(run_over(pairs, Evaluator(), {}, {"x": 1.0, "y": 2.0}, pairs.outputs))
         assert [m.result["sum"] for m in made] == [3]
 
     def test_a_failure_does_not_stop_the_others(self, pairs):
         """A value that does not fit fails its own combinations alone."""
-        made = list(run_over(pairs, Evaluator(), {"x": [1.0, "one"], "y": [2.0]}, {}, pairs.targets()))
+        made = list(run_over(pairs, Evaluator(), {"x": [1.0, "one"], "y": [2.0]}, {}, pairs.outputs))
         assert made[0].result["sum"] == 3
         assert isinstance(made[1].error, InputError)
         assert made[1].result is None
@@ -71,13 +71,13 @@ class TestRunOver:
     def test_unknown_input(self, pairs):
         """Mapping over an input that is not there names the nearest one."""
         with pytest.raises(InputError) as caught:
-            list(run_over(pairs, Evaluator(), {"xx": [1.0]}, {}, pairs.targets()))
+            list(run_over(pairs, Evaluator(), {"xx": [1.0]}, {}, pairs.outputs))
         assert caught.value.nearest == ["x"]
 
     def test_both_given_and_mapped(self, pairs):
         """An input is either given or mapped over."""
         with pytest.raises(InputError, match="both"):
-            list(run_over(pairs, Evaluator(), {"x": [1.0]}, {"x": 2.0, "y": 1.0}, pairs.targets()))
+            list(run_over(pairs, Evaluator(), {"x": [1.0]}, {"x": 2.0, "y": 1.0}, pairs.outputs))
 
 
 class TestReadMap:

@@ -24,7 +24,7 @@ class Called(Observer):
 
 
 def planned(graph: Graph, evaluator: Evaluator, outputs: list[str], **inputs: object) -> dict[str, Planned]:
-    return {p.name: p for p in plan(graph, graph.bind(inputs), graph.targets(outputs), evaluator)}
+    return {p.name: p for p in plan(graph.request(inputs, outputs), evaluator)}
 
 
 def graph_of(nodes: str, registry: Registry, inputs: str = "{}") -> Graph:
@@ -129,8 +129,8 @@ class TestFates:
             "d": "run",
             "e": "skipped",
         }
-        assert found["c"].reason == "the gate is shut"
-        assert "d" in found["e"].reason
+        assert str(found["c"].reason) == "the gate is shut"
+        assert "d" in str(found["e"].reason)
 
     def test_maybe(self, registry: Registry) -> None:
         """Behind a rule that has to see a value first, nodes are maybe, with who will decide."""
@@ -140,7 +140,7 @@ class TestFates:
         )
         found = planned(graph_of(nodes, registry), Evaluator(), ["d"])
         assert [found[n].fate for n in ("a", "c", "k", "d")] == ["run", "maybe", "maybe", "run"]
-        assert "d decides" in found["k"].reason
+        assert "d decides" in str(found["k"].reason)
 
     @pytest.mark.parametrize("tier", ["memory", "disk"])
     def test_memoized(self, registry: Registry, tmp_path: Path, tier: str) -> None:
@@ -151,7 +151,7 @@ class TestFates:
         graph.run(["b"], evaluator=evaluator)
         found = planned(graph, evaluator, ["e"])
         assert [found[n].fate for n in ("a", "b", "e")] == ["skipped", tier, "run"]
-        assert "memoized" in found["a"].reason
+        assert "memoized" in str(found["a"].reason)
 
     def test_plan_runs_nothing(self, registry: Registry, ran: list[str]) -> None:
         """Planning calls no operator."""

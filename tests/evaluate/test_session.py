@@ -41,7 +41,7 @@ def halved(image):
 class TestSession:
     def test_an_edit_reaches_what_depends_on_it(self, relight):
         """The branch of the other input is not run again."""
-        from graphface.nodes.image import image_from_array
+        from graphface.nodes.types.image import image_from_array
 
         photo, other, third = (image_from_array(picture(v)) for v in (0.1, 0.2, 0.3))
         session = Session(relight, {"photo": photo, "other": other})
@@ -66,7 +66,7 @@ class TestSession:
 
     def test_unedited_inputs_are_not_bound_again(self, relight, tmp_path):
         """A file that was deleted meanwhile is not missed."""
-        from graphface.nodes.image import write_picture
+        from graphface.nodes.io.image_write import write_picture
 
         path = tmp_path / "photo.png"
         write_picture(np.zeros((4, 4, 3), np.uint8), path)
@@ -101,7 +101,7 @@ class TestSession:
 
     def test_the_plan_is_that_of_the_edit(self, relight):
         """Memoized nodes and nodes to run, before anything runs."""
-        from graphface.nodes.image import image_from_array
+        from graphface.nodes.types.image import image_from_array
 
         photo, other, third = (image_from_array(picture(v)) for v in (0.1, 0.2, 0.3))
         session = Session(relight, {"photo": photo, "other": other})

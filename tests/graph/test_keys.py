@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphface import Cosmetic, Evaluator, Graph, MemoryTier, Registry, load, node
+from graphface.graph.request import request
 
 Load = Callable[..., Graph]
 
@@ -22,8 +23,8 @@ def loaded(registry: Registry) -> Load:
 
 
 def key(graph: Graph, name: str = "x", **inputs: object) -> bytes:
-    keys = graph.keys(graph.bind(inputs))
-    return keys[graph.targets([name])[name].slot]
+    asked = graph.request(inputs, [name])
+    return asked.key(asked.targets[name].slot)
 
 
 NUMBER = "  n: {use: toy.number}\n"
@@ -132,7 +133,7 @@ class TestWires:
         nodes = NUMBER + "\n".join(
             f"  k{i}: {{use: toy.add, in: {{a: {f'k{i - 1}' if i else 'n'}}}}}" for i in range(200)
         )
-        assert {len(k) for k in loaded(nodes).keys({})} == {16}
+        assert {len(k) for k in loaded(nodes).request().keys.by_slot} == {16}
 
 
 class TestInputs:
@@ -169,23 +170,28 @@ class TestInputs:
     def test_back_and_forth(self, loaded: Load) -> None:
         """A graph given one input, another and the first again has the first's keys again."""
         graph = loaded(self.SAME, "{i: Any}")
-        first, second, third = (graph.keys(graph.bind({"i": i})) for i in (1, 2, 1))
-        assert first == third != second
+        first = graph.request({"i": 1})
+        second = request(graph, {"i": 2}, before=first.keys)
+        third = request(graph, {"i": 1}, before=second.keys)
+        assert first.keys.by_slot == third.keys.by_slot != second.keys.by_slot
 
-    def test_interrupted(self, loaded: Load, monkeypatch: pytest.MonkeyPatch) -> None:
-        """Keys whose computing was interrupted are computed anew."""
+    def test_never_written_to(self, loaded: Load) -> None:
+        """Keys made from earlier ones leave those as they were: another thread may be running by them."""
         graph = loaded("  x: {use: toy.positive, in: {a: i, extra: i}}", "{i: float}")
-        expected = key(graph, i=-1.0)
-        key(graph, i=5.0)
+        first = graph.request({"i": -1.0})
+        before, declined = list(first.keys.by_slot), dict(first.keys.declined)
+        request(graph, {"i": 5.0}, before=first.keys)
+        assert (list(first.keys.by_slot), dict(first.keys.declined)) == (before, declined)
 
-        def interrupted(*_: object) -> None:
-            raise KeyboardInterrupt
-
-        with monkeypatch.context() as patch:
-            patch.setattr("graphface.graph.graph.declined_now", interrupted)
-            with pytest.raises(KeyboardInterrupt):
-                key(graph, i=-1.0)
-        assert key(graph, i=-1.0) == expected
+    def test_from_earlier_ones(self, loaded: Load) -> None:
+        """Keys made from earlier ones are those made from nothing, decisions included."""
+        graph = loaded("  x: {use: toy.positive, in: {a: i, extra: j}}", "{i: float, j: float}")
+        for i, j in ((-1.0, 1.0), (5.0, 1.0), (5.0, 2.0), (-1.0, 2.0)):
+            afresh = graph.request({"i": i, "j": j}).keys
+            for other in ((-1.0, 1.0), (5.0, 2.0)):
+                earlier = graph.request(dict(zip("ij", other, strict=True))).keys
+                found = request(graph, {"i": i, "j": j}, before=earlier).keys
+                assert (found.by_slot, found.declined) == (afresh.by_slot, afresh.declined)
 
 
 class TestCode:

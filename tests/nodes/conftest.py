@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from graphface.nodes.morphable.facemesh import facemesh
+from graphface.nodes.geometry.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mesh, Surface
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from graphface import load
-from graphface.graph.graph import shipped_folders
+from graphface.document.graph_files import shipped_folders
 from graphface.registry import default_registry
 
 FOLDER = next(f for f in shipped_folders(default_registry()) if (f / "ablations").is_dir()) / "ablations"

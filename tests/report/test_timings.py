@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.evaluate.observe import Record
+from graphface.record import Record
 from graphface.report.timings import Timings
 
 

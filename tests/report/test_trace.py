@@ -31,12 +31,11 @@ nodes:
 def traced(outputs: list[str], trace: Trace, evaluator: Evaluator | None = None, **options: Any) -> dict[str, Any]:
     """What a trace says after a run of TEXT with x = 1, failed or not."""
     graph = load(TEXT, registry=toy_registry())
-    bound = graph.bind({"x": 1.0})
     evaluator = evaluator or Evaluator(memory=MemoryTier(), **options)
     evaluator.observers = (trace,)
     with contextlib.suppress(RunFailed):
-        evaluator.run(graph, bound, graph.targets(outputs))
-    return trace.as_json(graph, bound)
+        evaluator.run(graph.request({"x": 1.0}, outputs))
+    return trace.as_json()
 
 
 def nodes_of(said: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -104,8 +103,8 @@ class TestContents:
         trace = Trace()
         odd = {"n.anything": {1: Path("a")}, "n.items": [float("inf")]}
         graph = load("graphface: 1\nnodes: {n: {use: toy.options}}\n", registry=registry, set=odd)
-        Evaluator(observers=[trace]).run(graph, {}, graph.targets(["n"]))
-        said = json.dumps(trace.as_json(graph, {}), allow_nan=False)
+        Evaluator().run(graph.request({}, ["n"]), [trace])
+        said = json.dumps(trace.as_json(), allow_nan=False)
         assert json.loads(said)["nodes"][0]["parameters"] == {
             "table": None,
             "items": ["inf"],
@@ -147,15 +146,16 @@ class TestFile:
         """`write` leaves the same as JSON."""
         graph = load(TEXT, registry=registry)
         trace = Trace()
-        bound = graph.bind({"x": 1.0})
-        Evaluator(observers=[trace]).run(graph, bound, graph.targets(["a"]))
-        trace.write(tmp_path / "run.json", graph, bound)
-        assert json.loads((tmp_path / "run.json").read_text()) == trace.as_json(graph, bound)
+        Evaluator().run(graph.request({"x": 1.0}, ["a"]), [trace])
+        trace.write(tmp_path / "run.json")
+        assert json.loads((tmp_path / "run.json").read_text()) == trace.as_json()
 
     def test_no_folder(self, tmp_path: Path, registry: Registry) -> None:
         """Where it cannot be written, that is an error about the file."""
+        trace = Trace()
+        Evaluator().run(load(TEXT, registry=registry).request({"x": 1.0}, ["a"]), [trace])
         with pytest.raises(UnwritableFile):
-            Trace().write(tmp_path / "nowhere" / "run.json", load(TEXT, registry=registry), {})
+            trace.write(tmp_path / "nowhere" / "run.json")
 
 
 PLUGIN = """\

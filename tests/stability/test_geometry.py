@@ -18,12 +18,13 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "nodes" / "morphable"))  # im
 from faces import coefficients_of, grid_model, landmarks_of, rotation_of
 
 from graphface import GraphfaceWarning
-from graphface.nodes.landmarks.given import UnusableLandmarks
+from graphface.nodes.geometry.average import average
+from graphface.nodes.geometry.facemesh import facemesh
+from graphface.nodes.geometry.morphable import morphable
+from graphface.nodes.landmark_schemes import UnusableLandmarks
 from graphface.nodes.morphable.builtin import builtin_model
-from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.fit import Settings, fit
 from graphface.nodes.morphable.model import no_basis
-from graphface.nodes.morphable.morphable import average, morphable
 from graphface.nodes.morphable.pose import Pose, closed_form
 from graphface.nodes.morphable.prior import Mixture, prepare, quadratic
 from graphface.nodes.morphable.solve import Problem, View, solve

@@ -11,7 +11,6 @@ import tracemalloc
 import pytest
 
 from graphface import Evaluator, Graph, MemoryTier, Registry, load
-from graphface.document.effective import effective
 from graphface.evaluate.plan import plan
 from graphface.report.history import identities
 
@@ -56,7 +55,7 @@ def large() -> Graph:
 class TestLarge:
     def test_plan(self, large: Graph) -> None:
         """Every node is planned to run."""
-        planned = plan(large, large.bind({"x": 1.0}), large.targets(), Evaluator())
+        planned = plan(large.request({"x": 1.0}), Evaluator())
         assert [entry.fate for entry in planned] == ["run"] * NODES
 
     def test_run(self, large: Graph) -> None:
@@ -73,11 +72,11 @@ class TestLarge:
         """Depth costs no recursion: a chain as long as the graph is large."""
         graph = load(chain(NODES), registry=registry)
         assert graph.run(evaluator=Evaluator(), x=1.0)["end"] == NODES
-        assert len(identities(graph, graph.bind({"x": 1.0}), graph.targets())) == NODES
+        assert len(identities(graph.request({"x": 1.0}))) == NODES
 
     def test_effective(self, large: Graph) -> None:
         """The effective document is written."""
-        assert effective(large, origins=False).count("\n") > 3 * NODES
+        assert large.effective(origins=False).count("\n") > 3 * NODES
 
     def test_values_are_let_go(self, registry: Registry) -> None:
         """A chain of arrays holds a few of them at a time, not all."""

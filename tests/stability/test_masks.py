@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from portraits import HAIR, SKIN, landmarks_at, portrait, surface_of
 
 from graphface.nodes.masks.classify import classify
-from graphface.nodes.masks.cue import cue, cued_hair
+from graphface.nodes.masks.cue import cue
+from graphface.nodes.masks.cued_hair import cued_hair
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair

@@ -10,17 +10,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphface.nodes import blend, detail, sh
+from graphface.nodes.blend.recombine import recombine
+from graphface.nodes.detail.additive import additive as additive_detail
+from graphface.nodes.detail.multiplicative import multiplicative as multiplicative_detail
+from graphface.nodes.geometry.facemesh import facemesh
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.masks.face import face
-from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
+from graphface.nodes.render.background import background
 from graphface.nodes.render.samples import samples
-from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shade import shade
-from graphface.nodes.render.spread import background, spread, surroundings
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.types import Image, Landmarks
+from graphface.nodes.render.spread import spread
+from graphface.nodes.render.surroundings import surroundings
+from graphface.nodes.sh.fit import fit as fit_light
+from graphface.nodes.sh.render import render as render_light
+from graphface.nodes.surface.rasterize import rasterize
+from graphface.nodes.types import Image, Landmarks, Scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::graphface.fallback.GraphfaceWarning")
 
@@ -51,18 +56,18 @@ def landmarks(center, interocular, yaw=0.0):
     return Landmarks(points.astype(np.float32), "facemesh468")
 
 
-def relit(pixels, points, scene, method=detail.additive):
+def relit(pixels, points, scene, method=additive_detail):
     photo = Image(np.asarray(pixels, np.float32))
     scene = Scene.coerce(scene)
     surface = rasterize(facemesh(points), photo)
     mask = face(surface, points)
     parts = intensity(photo)
-    estimated = sh.render(sh.fit(parts.shading, surface.normals, mask).light, surface.normals)
+    estimated = render_light(fit_light(parts.shading, surface.normals, mask).light, surface.normals)
     around = surroundings(mask, surface, points)
     old = spread(estimated, around)
     new = spread(shade(samples(surface, estimated, mask, photo), scene, estimated), around)
     mixed = background(old, new, mask, points, scene)
-    return blend.recombine(photo, parts.albedo, mixed, method(photo, parts.albedo, old)).pixels
+    return recombine(photo, parts.albedo, mixed, method(photo, parts.albedo, old)).pixels
 
 
 def skin(height=96, width=80):
@@ -74,7 +79,7 @@ def skin(height=96, width=80):
 class TestHardPhotos:
     @pytest.mark.parametrize("photo", PHOTOS)
     @pytest.mark.parametrize("scene", SCENES)
-    @pytest.mark.parametrize("method", [detail.additive, detail.multiplicative])
+    @pytest.mark.parametrize("method", [additive_detail, multiplicative_detail])
     def test_finite_and_in_range(self, photo, scene, method, rng):
         """Every photo under every light stays a picture."""
         pixels = PHOTOS[photo](rng, (96, 80, 3))

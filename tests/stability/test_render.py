@@ -8,21 +8,23 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from graphface.nodes import blend, sh
-from graphface.nodes.detail import split
+from graphface.nodes.blend.recombine import recombine
+from graphface.nodes.detail.split import split
+from graphface.nodes.geometry.facemesh import facemesh
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.masks.face import face
-from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.render.head import head
 from graphface.nodes.render.samples import samples
-from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shade import shade
 from graphface.nodes.render.shadows import shadow_maps
-from graphface.nodes.render.spread import spread, surroundings
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.scatter import screen_space
-from graphface.nodes.types import Image, Landmarks
+from graphface.nodes.render.spread import spread
+from graphface.nodes.render.surroundings import surroundings
+from graphface.nodes.scatter.screen_space import screen_space
+from graphface.nodes.sh.fit import fit as fit_light
+from graphface.nodes.sh.render import render as render_light
+from graphface.nodes.surface.rasterize import rasterize
+from graphface.nodes.types import Image, Landmarks, Scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::graphface.fallback.GraphfaceWarning")
 
@@ -62,7 +64,7 @@ def shaded(scene, face_mesh=None, **settings):
     whole = head(own) if face_mesh is None else face_mesh
     surface = rasterize(whole, photo())
     mask = face(surface, landmarks)
-    estimated = sh.render(sh.fit(intensity(photo()).shading, surface.normals, mask).light, surface.normals)
+    estimated = render_light(fit_light(intensity(photo()).shading, surface.normals, mask).light, surface.normals)
     scene = Scene.coerce(scene)
     points = samples(surface, estimated, mask, photo(), whole)
     shadows = shadow_maps(whole, points, scene, **{"samples": 3, "resolution": 64, **settings})
@@ -78,7 +80,7 @@ def relit(scene, **settings):
     old, new, landmarks = shaded(scene, **settings)
     parts = intensity(photo())
     detail = split(photo(), parts.albedo, old, landmarks)
-    return blend.recombine(photo(), parts.albedo, new, detail).pixels
+    return recombine(photo(), parts.albedo, new, detail).pixels
 
 
 class TestHardLights:

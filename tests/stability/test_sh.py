@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphface import GraphfaceWarning
-from graphface.nodes.sh import fit
+from graphface.nodes.sh.fit import fit
 
 SIDE = 48
 HOW = [{"robust": r, "nonnegative": n} for r in ("none", "huber", "trimmed") for n in (False, True)]

@@ -373,7 +373,7 @@ class TestFiles:
         for level in (0, 255, 0, 128):
             _write_mask(path, level)
             bound = graph.bind({"m": str(path)}, stat_shortcut=shortcut)
-            value = evaluator.run(graph, bound, graph.targets(["n"]))["n"]
+            value = evaluator.run(graph.request(bound, ["n"]))["n"]
             assert float(value.max()) == pytest.approx(level / 255)
 
 
@@ -384,6 +384,6 @@ def _with_mask(registry: Registry) -> Registry:
 
 
 def _write_mask(path: Path, level: int) -> None:
-    from graphface.nodes.image import write_picture
+    from graphface.nodes.io.image_write import write_picture
 
     write_picture(np.full((8, 8), level, np.uint8), path)

@@ -5,7 +5,7 @@ import pytest
 
 import graphface
 from graphface.assets.asset import AssetUnavailable
-from graphface.nodes.image import image_from_array
+from graphface.nodes.types.image import image_from_array
 
 pytestmark = pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")
 

@@ -123,8 +123,9 @@ class TestCheckOutput:
 
     def test_suffixes_of_pictures(self) -> None:
         """The suffixes that picture types promise are those that pictures are written as."""
-        from graphface.nodes.image_write import SUFFIXES
-        from graphface.nodes.types import PICTURES, Image
+        from graphface.nodes.io.image_write import SUFFIXES
+        from graphface.nodes.types import Image
+        from graphface.nodes.types.arrays import PICTURES
 
         assert set(SUFFIXES) == set(PICTURES) == set(Image.suffixes)
 

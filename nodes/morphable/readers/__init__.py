@@ -14,6 +14,7 @@ from graphface import UnreadableFile, UsageError
 if TYPE_CHECKING:
     from graphface.nodes.morphable.model import MorphableModel
 
+
 KINDS = ("ict", "surrey", "flame", "basel")
 
 

@@ -21,6 +21,7 @@ from graphface.nodes.morphable.readers.landmark_file import read_landmark_number
 
 _LICENSE = "Basel Face Model licence (research; from the University of Basel)"
 
+
 _NAMED = {
     "center.chin.tip": 8,
     "center.nose.tip": 30,

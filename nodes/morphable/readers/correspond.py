@@ -9,13 +9,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.landmarks.schemes import IBUG68_IN_FACEMESH468
+from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
 from graphface.nodes.morphable.align import aligned
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.morphable.topology import facemesh_topology
 
 _NEAR = 0.06
 """A vertex further from its point than this, in eye distances, is another place on the face."""
+
 
 _INNER = slice(17, 68)
 """The jaw points are left out: on many models they lie where the outline is seen, not at a place of the skin."""

@@ -23,13 +23,19 @@ from graphface.nodes.morphable.readers.assemble import assemble, with_facemesh_p
 from graphface.nodes.morphable.readers.landmark_file import read_landmark_numbers
 
 _IDENTITIES = 300
+
+
 _JAW = 2
 """FLAME's joints: global, neck, jaw, two eyes."""
+
 
 _JAW_DEVIATION = 0.15
 """Radians of jaw opening taken as one standard deviation."""
 
+
 _EMBEDDING = "flame_static_embedding.pkl"
+
+
 _ALLOWED = {
     ("numpy", "dtype"),
     ("numpy", "ndarray"),

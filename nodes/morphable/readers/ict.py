@@ -23,6 +23,7 @@ from graphface.nodes.morphable.readers.assemble import assemble, with_facemesh_p
 _NARROW_FACE = 6560
 """Polygons of the narrow face, first in the list (ICT-FaceKit's README)."""
 
+
 _LANDMARKS = (
     1225, 1888, 1052, 367, 1719, 1722, 2199, 1447, 966, 3661, 4390, 3927, 3924, 2608, 3272, 4088, 3443, 268, 493,
     1914, 2044, 1401, 3615, 4240, 4114, 2734, 2509, 978, 4527, 4942, 4857, 1140, 2075, 1147, 4269, 3360, 1507, 1542,
@@ -31,8 +32,10 @@ _LANDMARKS = (
 )  # fmt: skip
 """Vertices of the 68 iBUG points (ICT-FaceKit's `vertex_indices.json`)."""
 
+
 _DEVIATION = 0.3
 """Blendshape weights run from 0 to 1 and have no statistics; one standard deviation is taken to be this."""
+
 
 _CARD = {"license": "MIT", "source": "ICT-FaceKit, USC Institute for Creative Technologies"}
 

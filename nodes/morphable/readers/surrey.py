@@ -22,6 +22,7 @@ from graphface.nodes.morphable.readers.landmark_file import read_landmark_number
 _DEVIATION = 0.3
 """Blendshape weights run from 0 to 1 and have no statistics; one standard deviation is taken to be this."""
 
+
 _MOST = 1 << 28
 """Numbers in a matrix of a plausible file."""
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from graphface.assets.asset import AssetUnavailable
 from graphface.cli import main
 from graphface.nodes.commands.truth import LIGHTS
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 
 Picture = NDArray[np.uint8]
 

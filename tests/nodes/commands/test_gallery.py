@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from graphface.nodes.commands.gallery import shipped_scenes
-from graphface.nodes.image import read_image, write_picture
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
 
 OWN = "mode: add\n"
 LEFT = "ambient: 0.3\nbackground: 1\nhair: 0\nlights: [{type: directional, azimuth: -60, shadow: none}]\n"

@@ -22,10 +22,11 @@ from graphface.nodes.commands.known_lights import (
     yale_scene,
 )
 from graphface.nodes.commands.truth import LIGHTS
-from graphface.nodes.image import image_from_array, read_image, write_picture
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.render.irradiance import irradiance
-from graphface.nodes.render.scene import DirectionalLight, Scene
-from graphface.nodes.types import Image
+from graphface.nodes.types import DirectionalLight, Image, Scene
+from graphface.nodes.types.image import image_from_array
 
 FORWARD = np.float32([[0, 0, 1]])
 

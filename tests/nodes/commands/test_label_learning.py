@@ -17,7 +17,7 @@ from graphface.nodes.commands.label_lessons import lesson, plate_behind
 from graphface.nodes.commands.label_training import Examples, folded, network, trained
 from graphface.nodes.commands.label_variations import example
 from graphface.nodes.masks.label_network import label_scores
-from graphface.nodes.masks.shown import CHANNELS
+from graphface.nodes.masks.network_input import CHANNELS
 from graphface.nodes.masks.upright import HEIGHT, WIDTH
 
 

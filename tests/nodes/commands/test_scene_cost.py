@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphface.nodes.commands import scene_cost
-from graphface.nodes.image import write_picture
+from graphface.nodes.io.image_write import write_picture
 
 ON_ITS_OWN = "background: 1\nhair: 0\n"
 SUN = "lights: [{type: directional, azimuth: 30, shadow: %s}]\n"

@@ -10,7 +10,7 @@ import pytest
 from graphface import UnreadableFile
 from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.commands.truth import LIGHTS, known_scene, relight_truth
-from graphface.nodes.image import read_image
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.render.irradiance import irradiance
 
 

@@ -7,7 +7,8 @@ import pytest
 
 from graphface import UnreadableFile
 from graphface.nodes.commands.variant_sheet import variant_sheets
-from graphface.nodes.image import read_image, write_picture
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
 
 
 def paint(path, value):

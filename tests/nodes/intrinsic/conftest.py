@@ -1,4 +1,4 @@
-"""A picture whose albedo and shading are known: a patchwork of flat colours under a smooth light."""
+"""A picture whose albedo and shading are known: a patchwork of flat colors under a smooth light."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Patchwork:
 
 @pytest.fixture(scope="session")
 def patchwork():
-    """Make one: `patches` to a side, of `colors` different colours."""
+    """Make one: `patches` to a side, of `colors` different colors."""
 
     def make(patches: int = 32, colors: int = 6, size: int = 128) -> Patchwork:
         rng = np.random.default_rng(3)

@@ -62,7 +62,7 @@ class TestDivisionOfLabour:
     """What tells the methods apart."""
 
     def test_few_reflectances_is_what_bell_assumes(self, patchwork):
-        """With as many colours as patches it loses its advantage; with six it is nearly exact."""
+        """With as many colors as patches it loses its advantage; with six it is nearly exact."""
         few, many = patchwork(8, 6), patchwork(8, 64)
         assert shading_error(bell2014(few.photo).shading, few.shading) < 0.01
         assert shading_error(bell2014(many.photo).shading, many.shading) > 0.05

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from graphface.assets.asset import AssetUnavailable
-from graphface.nodes.image import image_from_array
 from graphface.nodes.landmarks.weights import ASSETS, weights_path
 from graphface.nodes.types import Image
+from graphface.nodes.types.image import image_from_array
 
 
 @pytest.fixture(scope="session")

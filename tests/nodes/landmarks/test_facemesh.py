@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from graphface import GraphfaceWarning
-from graphface.nodes.colour import decode_srgb
+from graphface.nodes.color import decode_srgb
+from graphface.nodes.landmark_schemes import ibug68
 from graphface.nodes.landmarks.blazeface import Face
 from graphface.nodes.landmarks.facemesh import NoFaceFound, NoSuchFace, disagreement, facemesh
-from graphface.nodes.landmarks.schemes import ibug68
 from graphface.nodes.types import Image, Landmarks
 
 pytestmark = pytest.mark.usefixtures("weights")

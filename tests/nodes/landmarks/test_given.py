@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from graphface import GraphfaceWarning, UnreadableFile, UnwritableFile
-from graphface.nodes.landmarks.given import UnusableLandmarks, given
+from graphface.nodes.landmark_schemes import UnusableLandmarks
+from graphface.nodes.landmarks.given import given
 from graphface.nodes.types import Image, Landmarks
 
 PHOTO = Image(np.zeros((200, 300, 3), np.float32))

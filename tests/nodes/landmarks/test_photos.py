@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from graphface import GraphfaceWarning
-from graphface.nodes.image import read_image
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.landmark_schemes import ibug68
 from graphface.nodes.landmarks.facemesh import facemesh
-from graphface.nodes.landmarks.schemes import ibug68
 
 pytestmark = pytest.mark.usefixtures("weights")
 

@@ -11,7 +11,7 @@ from portraits import landmarks_at, portrait
 from graphface import GraphfaceWarning
 from graphface.nodes.masks.cue import cue
 from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights, write_weights
-from graphface.nodes.masks.shown import CHANNELS, SKIN, mirror_image, shown
+from graphface.nodes.masks.network_input import CHANNELS, SKIN, mirror_image, shown
 from graphface.nodes.masks.upright import HEIGHT, WIDTH, upright_of
 from graphface.nodes.types import Image
 
@@ -36,7 +36,7 @@ class TestShown:
         assert np.abs(cells).max() < 5
 
     def test_colors_are_told_against_the_skin(self):
-        """The sure skin of a drawn face is 0 in every colour, whatever its colour is."""
+        """The sure skin of a drawn face is 0 in every color, whatever its color is."""
         photo, landmarks, _ = portrait(noise=0)
         for pixels in (photo.pixels, photo.pixels * 0.5):
             middle = cells_of(Image(pixels.astype(np.float32)), landmarks)[HEIGHT // 4 + 2, WIDTH // 4]
@@ -44,7 +44,7 @@ class TestShown:
 
     @pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")
     def test_what_is_not_seen(self):
-        """Beyond the photo's frame colours, roughness and the skin's colour are 0."""
+        """Beyond the photo's frame colors, roughness and the skin's color are 0."""
         photo, landmarks, _ = portrait()
         grid = upright_of(landmarks)
         cells = shown(grid.sampled(photo.pixels), np.zeros((HEIGHT, WIDTH), np.float32), grid.layout(landmarks))
@@ -66,7 +66,7 @@ class TestShown:
         np.testing.assert_array_equal(mirror_image(mirror_image(here)), here)
 
     def test_no_skin_in_sight(self):
-        """Where no sure skin lies in the frame that is said, and colours are compared with the usual one."""
+        """Where no sure skin lies in the frame that is said, and colors are compared with the usual one."""
         photo, _, _ = portrait()
         with pytest.warns(GraphfaceWarning, match="no skin"):
             cells = cells_of(photo, landmarks_at(1000, 1000, 30))

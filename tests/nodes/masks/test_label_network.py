@@ -14,7 +14,7 @@ from scipy.ndimage import correlate
 from graphface import UnreadableFile, UnwritableFile
 from graphface.nodes.masks.label_network import WIDTHS, convolved, label_scores
 from graphface.nodes.masks.label_weights import read_weights, shipped_weights, write_weights
-from graphface.nodes.masks.shown import CHANNELS
+from graphface.nodes.masks.network_input import CHANNELS
 
 
 class TestConvolved:

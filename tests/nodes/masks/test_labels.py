@@ -31,7 +31,7 @@ def likeliest(labels):
 
 class TestHair:
     @pytest.mark.parametrize("color", [HAIR, (0.85, 0.75, 0.45), (0.9, 0.9, 0.92), (0.5, 0.2, 0.1)])
-    def test_found_by_colour(self, color):
+    def test_found_by_color(self, color):
         """Dark, fair, white and red hair on top of the head is found."""
         photo, landmarks, labels = portrait(hair=color)
         found = stages(photo, landmarks)[2]
@@ -45,7 +45,7 @@ class TestHair:
 
     @pytest.mark.parametrize("color", [SKIN, tuple(min(1.0, c + 0.12) for c in SKIN)])
     def test_bald(self, color):
-        """A scalp of the face's colour, or lighter by a shine, is no hair."""
+        """A scalp of the face's color, or lighter by a shine, is no hair."""
         photo, landmarks, _ = portrait(hair=color)
         assert (stages(photo, landmarks)[2].mask > 0.5).mean() < 0.002
 
@@ -59,7 +59,7 @@ class TestHair:
         pixels[(labels == 1) & (shrunk == 0)] = BACKDROP
         assert (stages(photo.with_pixels(pixels), landmarks)[2].mask > 0.5).mean() < 0.002
 
-    def test_same_colour_all_about(self):
+    def test_same_color_all_about(self):
         """Where the top looks just like what is beside, hair is never sure."""
         photo, landmarks, _ = portrait(hair=BACKDROP)
         assert stages(photo, landmarks)[2].response.max() < 0.8
@@ -95,7 +95,7 @@ class TestSkin:
 
 class TestDetector:
     def learnt(self, rng, *parts, model="parzen", odds=0.0):
-        """The detector on a row of (colour, number, top, beside) without skin."""
+        """The detector on a row of (color, number, top, beside) without skin."""
         values = np.concatenate([rng.normal(color, 0.02, (count, 3)) for color, count, _, _ in parts]).astype(
             np.float32
         )
@@ -118,7 +118,7 @@ class TestDetector:
         assert self.learnt(rng, *parts).share > 0.9
 
     def test_place_decides_between_likes(self, rng):
-        """One colour on top and beside is hair where place says so, and backdrop where it does not."""
+        """One color on top and beside is hair where place says so, and backdrop where it does not."""
         parts = (HAIR, 200, 1, 0), (HAIR, 400, 0, 1)
         assert self.learnt(rng, *parts, odds=5.0).share > 0.5
         assert self.learnt(rng, *parts, odds=0.0).share < 0.3
@@ -165,7 +165,7 @@ class TestClassify:
 
     @pytest.mark.parametrize("settings", [{"space": "rgb"}, {"space": "hsv"}, {"kind": "color"}, {"resolution": 20}])
     def test_feature_swaps(self, settings):
-        """Every colour space, feature set and resolution does the job on an easy head."""
+        """Every color space, feature set and resolution does the job on an easy head."""
         photo, landmarks, labels = portrait()
         found = likeliest(classify(*stages(photo, landmarks, **settings), landmarks, photo))
         assert overlap(found == 1, labels == 1) > 0.75
@@ -194,7 +194,7 @@ class TestClassify:
         assert labels.face[masks.conservative > 0].min() > 0.5
 
     def test_dark_suit_is_no_hair(self):
-        """Clothes of the hair's colour below the neck are background."""
+        """Clothes of the hair's color below the neck are background."""
         photo, landmarks, labels = portrait()
         pixels = photo.pixels.copy()
         pixels[int(0.85 * len(pixels)) :] = HAIR

@@ -12,14 +12,14 @@ from portraits import portrait, surface_of
 
 from graphface import UsageError
 from graphface.assets.asset import AssetUnavailable
-from graphface.nodes.image import image_from_array
+from graphface.nodes.geometry.facemesh import facemesh as mesh_of
 from graphface.nodes.landmarks.facemesh import facemesh
 from graphface.nodes.masks import network as module
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.network import network
-from graphface.nodes.morphable.facemesh import facemesh as mesh_of
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import Image, Landmarks
+from graphface.nodes.types.image import image_from_array
 from graphface.testing import check_node
 
 
@@ -31,19 +31,19 @@ def parts(labels):
     return np.stack([labels.face, labels.hair, labels.background])
 
 
-def by_colour(pixels):
+def by_color(pixels):
     """A network that takes red for hair, green for face skin and anything else for background."""
     logits = np.full((256, 256, 6), -9.0, np.float32)
     top = pixels.argmax(axis=2)
-    for colour, kind in ((0, 1), (1, 3), (2, 0)):
-        logits[..., kind][top == colour] = 9
+    for color, kind in ((0, 1), (1, 3), (2, 0)):
+        logits[..., kind][top == color] = 9
     return logits
 
 
 def painted(labels) -> Image:
-    """A picture whose colours say what everything is."""
-    colours = np.array([[0.1, 0.9, 0.1], [0.9, 0.1, 0.1], [0.1, 0.1, 0.9]], np.float32)
-    return Image(colours[labels])
+    """A picture whose colors say what everything is."""
+    colors = np.array([[0.1, 0.9, 0.1], [0.9, 0.1, 0.1], [0.1, 0.1, 0.9]], np.float32)
+    return Image(colors[labels])
 
 
 @pytest.fixture
@@ -55,7 +55,7 @@ def seeing(monkeypatch):
 class TestOurPart:
     def test_labels_land_where_they_were_seen(self, seeing):
         """What the network sees in the window is where it is in the photo."""
-        seeing(by_colour)
+        seeing(by_color)
         photo, landmarks, truth = portrait()
         found = network(painted(truth), landmarks, masks_of(photo, landmarks))
         assert (parts(found).argmax(axis=0) == truth).mean() > 0.97
@@ -67,7 +67,7 @@ class TestOurPart:
 
         def stand_in(pixels):
             shown.append(pixels.argmax(axis=2) == 0)
-            return by_colour(pixels)
+            return by_color(pixels)
 
         seeing(stand_in)
         photo, landmarks, truth = portrait()
@@ -84,7 +84,7 @@ class TestOurPart:
 
     def test_paint_on_the_face_stays_face(self, seeing):
         """What the network takes for an accessory is face within the conservative mask."""
-        seeing(lambda pixels: by_colour(np.broadcast_to(np.float32([0, 0, 1]), pixels.shape)))
+        seeing(lambda pixels: by_color(np.broadcast_to(np.float32([0, 0, 1]), pixels.shape)))
         photo, landmarks, _ = portrait()
         masks = masks_of(photo, landmarks)
         found = network(photo, landmarks, masks)
@@ -94,7 +94,7 @@ class TestOurPart:
 
     def test_given_seeds_are_hair(self, seeing):
         """What the user says is hair is hair, whatever the network sees there."""
-        seeing(by_colour)
+        seeing(by_color)
         photo, landmarks, truth = portrait()
         seeds = np.zeros(truth.shape, np.float32)
         seeds[90:110, 90:110] = 1
@@ -104,7 +104,7 @@ class TestOurPart:
 
     def test_somebody_beside_is_background(self, seeing):
         """A second head that touches nothing of this one is not labelled."""
-        seeing(by_colour)
+        seeing(by_color)
         photo, landmarks, truth = portrait()
         crowd = truth.copy()
         crowd[:, -20:] = 1
@@ -130,7 +130,7 @@ class TestOurPart:
     @pytest.mark.parametrize("shape", [(1, 1), (3, 200), (200, 3), (64, 64)])
     def test_always_a_partition(self, seeing, value, shape):
         """Black, white, broken, thin and tiny pictures: labels are finite, in range and sum to one."""
-        seeing(by_colour)
+        seeing(by_color)
         photo = Image(np.full((*shape, 3), value, np.float32))
         landmarks = portrait()[1]
         found = parts(network(photo, landmarks, masks_of(photo, landmarks)))

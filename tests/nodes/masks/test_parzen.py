@@ -14,7 +14,7 @@ DARK, LIGHT = (0.2, 0.05, 0.05), (0.8, -0.1, 0.1)
 
 
 def two_colors():
-    """Twenty pixels of a dark colour, then twenty of a light one."""
+    """Twenty pixels of a dark color, then twenty of a light one."""
     return np.repeat(np.float32([DARK, LIGHT]), 20, axis=0).reshape(4, 10, 3)
 
 
@@ -49,7 +49,7 @@ class TestPalette:
         assert roomy[9] <= tight[9] + 0.1
 
     def test_texture_counts(self):
-        """Pixels of one colour are told apart by how rough they are."""
+        """Pixels of one color are told apart by how rough they are."""
         values = np.zeros((1, 40, 11), np.float32)
         values[0, 20:, 3:7] = (0.04, 0.04, 0.02, 0.02)
         found = Palette(values).log_density(np.repeat(np.float32([1, 0]), 20), doubt=1.0)

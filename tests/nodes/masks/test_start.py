@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from portraits import portrait, surface_of
 
 from graphface.nodes.masks.classify import classify
-from graphface.nodes.masks.cue import cued_hair
+from graphface.nodes.masks.cued_hair import cued_hair
 from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import Hair
@@ -80,7 +80,7 @@ class TestClassifyByACue:
         assert min(overlaps(found, labels)) > 0.9
 
     def test_a_coarse_cue_is_sharpened(self):
-        """A blurred, moved cue comes nearer to the truth by the photo's own colours."""
+        """A blurred, moved cue comes nearer to the truth by the photo's own colors."""
         import cv2
 
         photo, landmarks, labels = portrait()

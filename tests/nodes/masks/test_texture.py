@@ -17,7 +17,7 @@ def stripes(angle, side=64, period=6):
 
 class TestOriented:
     def test_36_kernels_of_mean_0(self):
-        """Six edges and six bars at each scale; none sees flat colour, all weigh the same."""
+        """Six edges and six bars at each scale; none sees flat color, all weigh the same."""
         edges, bars = oriented(1, 3)
         assert len(edges) == len(bars) == DIRECTIONS
         for kernel in (*edges, *bars):
@@ -27,8 +27,8 @@ class TestOriented:
 
 class TestMr8:
     @pytest.mark.parametrize("bank", ["pyramid", "full"])
-    def test_shape_and_flat_colour(self, bank):
-        """Eight responses; flat colour has none but its own lightness."""
+    def test_shape_and_flat_color(self, bank):
+        """Eight responses; flat color has none but its own lightness."""
         responses = mr8(np.full((20, 30), 0.4, np.float32), bank)
         assert responses.shape == (20, 30, 8)
         np.testing.assert_allclose(np.delete(responses, 6, axis=2), 0, atol=1e-5)
@@ -54,7 +54,7 @@ class TestMr8:
 class TestFeatures:
     @pytest.mark.parametrize("space", ["lab", "rgb", "ycrcb", "hsv"])
     def test_finite_for_anything(self, space, rng):
-        """Holes and values out of range are put right; colours differ by about one at most."""
+        """Holes and values out of range are put right; colors differ by about one at most."""
         pixels = rng.uniform(-1, 2, (12, 12, 3)).astype(np.float32)
         pixels[0, 0], pixels[1, 1] = np.nan, np.inf
         found = features(pixels, space=space)
@@ -62,6 +62,6 @@ class TestFeatures:
         assert np.isfinite(found).all()
         assert np.abs(found).max() < 3
 
-    def test_colour_alone(self, rng):
+    def test_color_alone(self, rng):
         """Without texture there are three features."""
         assert features(rng.uniform(0, 1, (4, 4, 3)).astype(np.float32), kind="color").shape == (4, 4, 3)

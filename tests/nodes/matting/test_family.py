@@ -45,7 +45,7 @@ class TestFamily:
         assert alphas.max() <= 1
 
     def test_labels_stay(self, matting, head):
-        """On a picture with clear colours the likeliest labels are the true ones nearly everywhere."""
+        """On a picture with clear colors the likeliest labels are the true ones nearly everywhere."""
         assert (stacked(matting(*head[:3])).argmax(axis=0) == head[3]).mean() > 0.985
 
     def test_node(self, matting, head):
@@ -53,8 +53,8 @@ class TestFamily:
         check_node(matting, *head[:3])
 
     @pytest.mark.parametrize("color", [0.0, 0.5, 1.0, np.nan])
-    def test_flat_colour(self, matting, color, head):
-        """A picture of one colour, or of none, tells nothing: alphas still are a partition."""
+    def test_flat_color(self, matting, color, head):
+        """A picture of one color, or of none, tells nothing: alphas still are a partition."""
         flat = Image(np.full((160, 160, 3), color, np.float32))
         alphas = stacked(matting(flat, *head[1:3]))
         np.testing.assert_allclose(alphas.sum(axis=0), 1, atol=1e-5)
@@ -83,7 +83,7 @@ class TestFamily:
 
 @pytest.mark.parametrize("matting", [guided, closed_form])
 def test_follows_the_photo(matting):
-    """A border drawn two pixels off moves to where the colours change."""
+    """A border drawn two pixels off moves to where the colors change."""
     pixels = np.zeros((60, 60, 3), np.float32)
     pixels[:, 30:] = (0.9, 0.7, 0.5)
     labels = np.where(np.arange(60) < 32, 2, 0) * np.ones((60, 1), int)

@@ -19,7 +19,7 @@ from graphface.nodes.matting.solve import solve_alphas
 
 
 def band(rng, side=48, scale=1.0):
-    """Smooth colours with noise, everything unknown but the frame, half of which is face."""
+    """Smooth colors with noise, everything unknown but the frame, half of which is face."""
     y, x = np.mgrid[:side, :side] / side
     colors = np.stack([y, x, y * x], axis=2) + rng.normal(0, 0.02, (side, side, 3))
     unknown = np.zeros((side, side), bool)
@@ -33,7 +33,7 @@ class TestSolveAlphas:
     @settings(max_examples=20, deadline=None)
     @given(seed=st.integers(0, 2**16), scale=st.sampled_from([0.0, 1e-4, 1.0]), trust=st.sampled_from([1e-6, 1e-4, 1]))
     def test_solves(self, seed, scale, trust):
-        """With coarse functions or without, whatever the colours, it is the solution; and no fallback is taken."""
+        """With coarse functions or without, whatever the colors, it is the solution; and no fallback is taken."""
         colors, unknown, known, guess = band(np.random.default_rng(seed), side=20, scale=scale)
         system, right = band_system(colors, unknown, known, guess, ridge=1e-7, trust=trust)
         exact = np.linalg.solve(system.toarray(), right)
@@ -86,8 +86,8 @@ class TestSolveAlphas:
 
 
 class TestColorLines:
-    def test_spans_linear_functions_of_colour(self, rng):
-        """Any function linear in the colour over a block is a sum of its columns."""
+    def test_spans_linear_functions_of_color(self, rng):
+        """Any function linear in the color over a block is a sum of its columns."""
         colors, unknown = rng.uniform(size=(13, 9, 3)), rng.uniform(size=(13, 9)) < 0.7
         functions = color_lines(colors, unknown, 4)
         y, x = np.nonzero(unknown)

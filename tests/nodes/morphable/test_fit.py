@@ -7,15 +7,17 @@ import pytest
 from faces import coefficients_of, grid_model, landmarks_of, rotation_of
 
 from graphface import GraphfaceWarning, UsageError
-from graphface.nodes.image import image_from_array
-from graphface.nodes.landmarks.given import UnusableLandmarks
+from graphface.nodes.geometry.average import average
+from graphface.nodes.geometry.facemesh import facemesh
+from graphface.nodes.geometry.morphable import morphable
+from graphface.nodes.landmark_schemes import UnusableLandmarks
 from graphface.nodes.morphable.builtin import builtin_model
 from graphface.nodes.morphable.contour import jaw_lines, seen
-from graphface.nodes.morphable.facemesh import facemesh
 from graphface.nodes.morphable.focal import focal_length
-from graphface.nodes.morphable.morphable import average, morphable, person
 from graphface.nodes.morphable.pose import closed_form, turned, yaw_pitch_roll
+from graphface.nodes.person.morphable import person
 from graphface.nodes.types import FileFormat, Landmarks
+from graphface.nodes.types.image import image_from_array
 from graphface.registry import default_registry, interchangeable
 
 

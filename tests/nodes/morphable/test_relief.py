@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphface import UsageError
+from graphface.nodes.geometry.morphable import morphable
 from graphface.nodes.morphable.builtin import BUILTIN
-from graphface.nodes.morphable.morphable import morphable
 from graphface.nodes.morphable.relief import Difference, learned_relief, normal_difference, with_relief
 from graphface.nodes.morphable.storage import load_model, refined
 from graphface.nodes.morphable.subdivide import loop
-from graphface.nodes.render.surface import rasterize
+from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import Image
 
 COARSE = load_model(BUILTIN, refine=False)

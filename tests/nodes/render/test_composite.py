@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from graphface import UsageError
-from graphface.nodes.render.composite import composite, hair_shine, response
+from graphface.nodes.render.composite import composite
+from graphface.nodes.render.hair_shine import hair_shine
 from graphface.nodes.render.relit import relit
-from graphface.nodes.render.scene import Scene
+from graphface.nodes.render.response import response
 from graphface.nodes.render.skin import skin
-from graphface.nodes.types import DetailMap, Image, Segmentation
+from graphface.nodes.types import DetailMap, Image, Scene, Segmentation
 
 SHAPE = (6, 9)
 NOWHERE = np.zeros(SHAPE, np.float32)
@@ -47,7 +48,7 @@ class TestComposite:
         scene = Scene(background=0.25, hair=0.5)
         np.testing.assert_array_equal(composite(OLD, OLD, scene, thirds(), thirds().hair), OLD)
 
-    def test_coloured_new_light(self):
+    def test_colored_new_light(self):
         """Three channels where either has three."""
         new = np.repeat(NEW[..., None], 3, axis=2)
         assert composite(OLD, new, Scene(background=0.5), thirds()).shape == (*SHAPE, 3)

@@ -9,18 +9,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphface.nodes import sh
-from graphface.nodes.morphable.facemesh import facemesh
+from graphface.nodes.geometry.facemesh import facemesh
+from graphface.nodes.harmonics import ambient, basis
+from graphface.nodes.light.scene import scene_of
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.render.head import head
-from graphface.nodes.render.light_of import scene_of
 from graphface.nodes.render.neck import neck, underside
 from graphface.nodes.render.samples import samples
-from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.specular import specular
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.sh import basis
-from graphface.nodes.types import Image, Landmarks, Lighting
+from graphface.nodes.surface.rasterize import rasterize
+from graphface.nodes.types import Image, Landmarks, Lighting, Scene
 
 PHOTO = Image(np.full((200, 160, 3), 0.5, np.float32))
 
@@ -160,11 +158,11 @@ class TestSceneOf:
 
     def test_even_light_stays_even(self):
         """Ambient in, ambient out, of mean 1."""
-        values = scene_of(sh.ambient(0.3), PHOTO).lights[0].values
+        values = scene_of(ambient(0.3), PHOTO).lights[0].values
         normals = np.float32([[0, 0, 1], [1, 0, 0], [0, -0.6, 0.8]])
         np.testing.assert_allclose(basis(normals, 2) @ values, 1, atol=1e-3)
 
-    def test_coloured_light_stays_coloured(self):
+    def test_colored_light_stays_colored(self):
         """One light per channel."""
         light = Lighting(np.repeat(np.float32([[2], [0], [0], [0.5]]), 3, axis=1) * np.float32([1, 0.8, 0.5]))
         assert scene_of(light, PHOTO).colored

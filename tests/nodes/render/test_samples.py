@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.nodes.colour import decode_srgb
+from graphface.nodes.color import decode_srgb
 from graphface.nodes.render.samples import samples
 from graphface.nodes.types import Camera, Image, Mesh, Surface
 

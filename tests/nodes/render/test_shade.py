@@ -1,4 +1,4 @@
-"""Shading under a scene: modes, exposure, colour, and lights that are hard to have."""
+"""Shading under a scene: modes, exposure, color, and lights that are hard to have."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphface.nodes.colour import decode_srgb
+from graphface.nodes.color import decode_srgb
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.samples import samples
-from graphface.nodes.render.scene import DirectionalLight, HarmonicLight, Scene
 from graphface.nodes.render.shade import shade
-from graphface.nodes.types import Image, Surface
+from graphface.nodes.types import DirectionalLight, HarmonicLight, Image, Scene, Surface
 
 
 def half_ball(side=31):

@@ -8,11 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphface.nodes.render.samples import samples
-from graphface.nodes.render.scene import Scene
 from graphface.nodes.render.shadow_map import disc, lit_share
 from graphface.nodes.render.shadows import shadow_maps
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.types import Camera, Image, Mesh
+from graphface.nodes.surface.rasterize import rasterize
+from graphface.nodes.types import Camera, Image, Mesh, Scene
 
 UNIT = 40.0
 PHOTO = Image(np.zeros((120, 120, 3), np.float32))

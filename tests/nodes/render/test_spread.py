@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphface import GraphfaceWarning
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.render.spread import background, surroundings
+from graphface.nodes.render.background import background
 from graphface.nodes.render.spread import spread as spread_over
-from graphface.nodes.types import Landmarks, Surface
+from graphface.nodes.render.surroundings import surroundings
+from graphface.nodes.types import Landmarks, Scene, Surface
 
 SIDE, INTEROCULAR = 160, 40.0
 

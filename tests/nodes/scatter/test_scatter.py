@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphface.nodes.colour import decode_srgb
-from graphface.nodes.render.scene import Scene
-from graphface.nodes.scatter import gaussian, none, screen_space
-from graphface.nodes.types import Image, Landmarks, Surface
+from graphface.nodes.color import decode_srgb
+from graphface.nodes.scatter.gaussian import gaussian
+from graphface.nodes.scatter.none import none
+from graphface.nodes.scatter.screen_space import screen_space
+from graphface.nodes.types import Image, Landmarks, Scene, Surface
 
 HEIGHT, WIDTH, UNIT = 60, 80, 40.0
 METHODS = [gaussian, screen_space]

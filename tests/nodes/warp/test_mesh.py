@@ -5,9 +5,8 @@ import pytest
 
 from graphface import GraphfaceWarning, UsageError
 from graphface.nodes.render.head import head
-from graphface.nodes.render.surface import rasterize
-from graphface.nodes.types import Mesh
-from graphface.nodes.warp.correspondence import Pins
+from graphface.nodes.surface.rasterize import rasterize
+from graphface.nodes.types import Mesh, Pins
 from graphface.nodes.warp.mesh import mesh as correspond
 
 

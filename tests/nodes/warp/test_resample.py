@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from graphface.nodes.types import DetailMap
+from graphface.nodes.types import Correspondence, DetailMap
 from graphface.nodes.warp import resample
-from graphface.nodes.warp.correspondence import Correspondence
 from graphface.nodes.warp.mesh import mesh as correspond
 
 

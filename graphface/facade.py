@@ -1,0 +1,92 @@
+"""What users hold: a graph that is loaded in one call and can run itself.
+
+    graph = load("relight.yaml", profiles=["draft"], set={"mask.softness": 0.2})
+    result = graph.run(photo="portrait.jpg", outputs=["image", "face/mesh.normals"])
+
+Loading checks everything; what is left to fail in a run are the operators themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from graphface.cache.memory import MemoryTier
+from graphface.document.compose import Choices, compose
+from graphface.document.graph_files import shipped_folders
+from graphface.document.source import read_source
+from graphface.evaluate.evaluator import Evaluator, Result
+from graphface.graph.request import Request, request
+from graphface.graph.wired import WiredGraph
+from graphface.registry import Registry, default_registry
+from graphface.report.table import graph_table
+
+
+def load(
+    source: str | Path | Mapping[str, Any],
+    *,
+    variants: Sequence[str] = (),
+    profiles: Sequence[str] = (),
+    replace: Mapping[str, str] | None = None,
+    set: Mapping[str, Any] | None = None,
+    plugins: Sequence[str | Path] = (),
+    registry: Registry | None = None,
+) -> Graph:
+    """A graph from a file, a shipped graph's name ("relight"), a YAML text, a mapping of the same form, or a result
+    that carries its graph.
+
+    Args:
+        variants, profiles: names of overlays that the graph declares.
+        replace: node path to the operator to use there instead.
+        set: "node.parameter" to value; wins over everything.
+        plugins: files of further operators.
+        registry: where names are looked up; everything installed by default.
+
+    Raises:
+        DocumentError: the graph is wrong; all problems with file, line and column.
+        UnreadableFile: there is no such file.
+    """
+    registry = registry if registry is not None else default_registry()
+    if plugins:
+        registry = registry.extended()
+        for plugin in plugins:
+            registry.add_file(Path(plugin))
+    shipped = shipped_folders(registry)
+    choices = Choices(tuple(variants), tuple(profiles), dict(replace or {}), dict(set or {}))
+    return Graph(compose(read_source(source, shipped, registry), choices, shipped=shipped), registry)
+
+
+class Graph(WiredGraph):
+    """A wired graph that runs on an evaluator and shows itself in a notebook; see `load`."""
+
+    def run(
+        self, /, outputs: Iterable[str] | None = None, *, evaluator: Evaluator | None = None, **inputs: Any
+    ) -> Result:
+        """Evaluate outputs and only what they need.
+
+        Args:
+            outputs: names of declared outputs, or any "node" or "node.field"; all declared ones by default.
+            evaluator: where to run and what to keep; by default one per process with a memory tier.
+            inputs: arrays, values or paths by input name. One called `outputs` or `evaluator` goes another way:
+                `evaluator.run(graph.request({"outputs": value}))`.
+
+        Raises:
+            InputError, UnreadableFile: an input is missing or does not fit. RunFailed: a node failed.
+        """
+        evaluator = evaluator if evaluator is not None else shared_evaluator()
+        return evaluator.run(request(self, inputs, outputs, evaluator.last_keys(self)))
+
+    def request(self, inputs: Mapping[str, Any] | None = None, outputs: Iterable[str] | None = None) -> Request:
+        """What an evaluator runs, and what can be planned and explained; see `graphface.graph.request`."""
+        return request(self, inputs or {}, outputs)
+
+    def _repr_html_(self) -> str:
+        return graph_table(self)
+
+
+@cache
+def shared_evaluator() -> Evaluator:
+    """The evaluator of every `Graph.run` that is not given one."""
+    return Evaluator(memory=MemoryTier())

@@ -1,0 +1,51 @@
+"""Where a value of a file stands: the text it comes from, line and column.
+
+Positions travel with every value of a graph file through `extends`, variants, profiles and flags, so that any mistake
+can be shown where it was made. The lowest module of the engine: errors carry places.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+COLUMN_BITS = 20
+"""A position as one number: the line, then this many bits of column."""
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A text that values come from: a graph file, or a command-line flag."""
+
+    name: str
+    text: str = field(repr=False)
+    path: Path | None = None
+
+    @cached_property
+    def lines(self) -> list[str]:
+        return self.text.splitlines()
+
+    def place(self, at: int) -> Place:
+        return Place(self, at >> COLUMN_BITS, at & ((1 << COLUMN_BITS) - 1))
+
+
+@dataclass(frozen=True)
+class Place:
+    """A position in a source; line and column count from 1."""
+
+    source: Source
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.source.name}:{self.line}:{self.column}"
+
+    @property
+    def excerpt(self) -> str:
+        """The source line with a caret under the column."""
+        if not 0 < self.line <= len(self.source.lines):
+            return ""
+        line = "".join(c if c.isprintable() else " " for c in self.source.lines[self.line - 1])
+        start = max(0, self.column - 81)
+        return f"    {line[start : start + 160]}\n    {' ' * (self.column - 1 - start)}^"

@@ -1,0 +1,1 @@
+"""Albedos corrected: `shadow_color`."""

@@ -1,0 +1,1 @@
+"""Meshes and textures for other programs: `textured`."""

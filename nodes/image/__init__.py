@@ -1,0 +1,2 @@
+"""Pictures: between encodings (`encode`), at another size (`resize`), with clipped highlights given back
+(`unclipped`)."""

@@ -1,0 +1,16 @@
+"""A picture between its encodings."""
+
+from __future__ import annotations
+
+from graphface import node
+from graphface.nodes.color import decode_srgb, encode_srgb
+from graphface.nodes.types import Encoding, Image
+
+
+@node("image.encode")
+def encode(photo: Image, *, encoding: Encoding) -> Image:
+    """The same picture with its values sRGB-encoded or in linear light; the same object where it already is."""
+    if photo.encoding == encoding:
+        return photo
+    change = encode_srgb if encoding == "srgb" else decode_srgb
+    return photo.with_pixels(change(photo.pixels), encoding)

@@ -1,0 +1,1 @@
+"""Files: pictures and the text in them, panoramas, meshes, landmarks, scenes, pins, judgements, representations."""

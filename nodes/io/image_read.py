@@ -1,0 +1,280 @@
+"""Picture files to images: 8- and 16-bit PNG, JPEG, WebP and TIFF.
+
+The header is read first and alone, by Pillow: a file that claims more pixels than GRAPHFACE_MAX_PIXELS is refused
+before anything is allocated. Pillow then decodes 8-bit files; it silently halves 16-bit color, which OpenCV decodes.
+
+Pixels are taken as sRGB. An embedded profile is kept beside them and attached again on saving, so a picture in another
+RGB space comes back in it; only the light estimated in between is off by the difference of the spaces.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from PIL import ExifTags, ImageFile, JpegImagePlugin, PngImagePlugin, TiffImagePlugin, WebPImagePlugin
+from PIL.Image import Exif
+
+from graphface import UnreadableFile, warn
+from graphface.nodes.types import FileFormat, FloatArray, Image
+
+LIMIT_VARIABLE = "GRAPHFACE_MAX_PIXELS"
+
+
+DEFAULT_LIMIT = 200_000_000
+"""Pixels. As float32 RGB this many take 2.4 GB."""
+
+
+ORIENTATION = 274
+
+
+BITS_PER_SAMPLE = 258
+
+
+SAMPLE_FORMAT = 339
+
+
+ICC_PROFILE = 34675
+
+
+_KEPT_TIFF_TAGS = (270, 271, 272, 305, 306, 315, 33432)
+"""Description, make, model, software, time, artist, copyright: what of a TIFF's tags counts as its EXIF."""
+
+
+_DAMAGE = (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, TypeError, OverflowError, cv2.error)
+"""What Pillow and OpenCV raise on damaged files, depending on where the damage is."""
+
+
+@dataclass
+class Picture:
+    """An opened file: nothing but its header is read. `tags` are a TIFF's; `image` is None for a TIFF that Pillow does
+    not know how to decode (floating-point color)."""
+
+    format: str
+    image: Any
+    tags: dict[int, Any]
+    width: int
+    height: int
+    bits: int
+
+
+def read_image(path: Path) -> Image:
+    """The picture in a file: float32 RGB in 0..1, upright, with its alpha.
+
+    EXIF orientation is applied; grey, palette and CMYK become RGB; of an animation the first frame is taken, with a
+    warning. ICC profile and EXIF are kept in `Image.file`, without the thumbnail: it would show the unedited photo.
+
+    Raises:
+        UnreadableFile: missing, no picture, damaged, of a format that is not read, larger than GRAPHFACE_MAX_PIXELS, or
+            with values that are not numbers.
+    """
+    path = Path(path)
+    with open_picture(path) as picture:
+        _check_size(path, picture)
+        frames = int(getattr(picture.image, "n_frames", 1))
+        if frames > 1:
+            warn(f"{path} has {frames} pictures: the first is taken")
+        orientation, exif = _exif(path, picture)
+        icc = picture.tags.get(ICC_PROFILE) if picture.format == "TIFF" else picture.image.info.get("icc_profile")
+        samples, grey, icc = _decode(path, picture, icc)
+        if picture.format == "TIFF" and _already_upright(picture):
+            orientation = 1
+    upright = np.ascontiguousarray(_upright(samples, orientation))
+    pixels = np.repeat(upright[..., :1], 3, axis=2) if grey else np.ascontiguousarray(upright[..., :3])
+    alpha = np.ascontiguousarray(upright[..., -1]) if upright.shape[2] in (2, 4) else None
+    bits = 16 if picture.bits > 8 else 8
+    return Image(pixels, alpha, file=FileFormat(picture.format, bits, icc or None, exif, grey))
+
+
+@contextmanager
+def open_picture(path: Path) -> Iterator[Picture]:
+    """The header of a picture file; closed afterwards.
+
+    Raises:
+        UnreadableFile: also for damage found while the block runs.
+    """
+    try:
+        with path.open("rb") as file:
+            yield _open(path, file)
+    except UnreadableFile:
+        raise
+    except FileNotFoundError as error:
+        raise UnreadableFile(path, "no such file") from error
+    except IsADirectoryError as error:
+        raise UnreadableFile(path, "is a folder, not a picture") from error
+    except PermissionError as error:
+        raise UnreadableFile(path, "may not be read (permission denied)") from error
+    except _DAMAGE as error:
+        raise UnreadableFile(path, f"damaged or cut off ({_first_line(error)})") from error
+
+
+def _open(path: Path, file: Any) -> Picture:
+    start = file.read(32)
+    file.seek(0)
+    if start.startswith(b"\x89PNG\r\n\x1a\n"):
+        image: Any = PngImagePlugin.PngImageFile(file)
+        return Picture("PNG", image, {}, image.width, image.height, bits=start[24])
+    if start.startswith(b"\xff\xd8\xff"):
+        return _plain("JPEG", JpegImagePlugin.JpegImageFile(file))
+    if start.startswith(b"RIFF") and start[8:12] == b"WEBP":
+        return _plain("WEBP", WebPImagePlugin.WebPImageFile(file))
+    if start[:4] in (b"II*\0", b"MM\0*"):
+        return _open_tiff(file)
+    if not start:
+        raise UnreadableFile(path, "is empty")
+    raise UnreadableFile(path, "is not a PNG, JPEG, WebP or TIFF picture")
+
+
+def _plain(name: str, image: Any) -> Picture:
+    return Picture(name, image, {}, image.width, image.height, bits=8)
+
+
+def _open_tiff(file: Any) -> Picture:
+    directory = TiffImagePlugin.ImageFileDirectory_v2(file.read(8))
+    file.seek(directory.next)
+    directory.load(file)
+    tags = dict(directory)
+    bits = tags.get(BITS_PER_SAMPLE, (1,))
+    bits = max(bits) if isinstance(bits, tuple) else bits
+    file.seek(0)
+    image: ImageFile.ImageFile | None
+    try:
+        image = TiffImagePlugin.TiffImageFile(file)
+    except SyntaxError:  # a combination of samples that Pillow has no mode for; OpenCV may
+        image = None
+    return Picture("TIFF", image, tags, int(tags[256]), int(tags[257]), int(bits))
+
+
+def _check_size(path: Path, picture: Picture) -> None:
+    limit = pixel_limit()
+    if picture.width * picture.height > limit:
+        raise UnreadableFile(
+            path,
+            f"claims {picture.width} x {picture.height} pixels, more than {limit / 1e6:.0f} million; "
+            f"set {LIMIT_VARIABLE} to allow it",
+        )
+
+
+def pixel_limit() -> int:
+    """The most pixels a picture may have: $GRAPHFACE_MAX_PIXELS, or 200 million."""
+    text = os.environ.get(LIMIT_VARIABLE, "")
+    try:
+        return max(1, int(float(text))) if text else DEFAULT_LIMIT
+    except (ValueError, OverflowError):
+        warn(f"{LIMIT_VARIABLE}={text!r} is not a number: {DEFAULT_LIMIT} is used")
+        return DEFAULT_LIMIT
+
+
+def _exif(path: Path, picture: Picture) -> tuple[int, bytes | None]:
+    """The orientation (1..8), and the EXIF block without it and without the thumbnail."""
+    if picture.format == "TIFF":
+        exif = _exif_of_tiff(picture)
+    else:
+        exif = Exif()
+        exif.load(picture.image.info.get("exif") or b"")
+        exif.get_ifd(ExifTags.IFD.Exif)  # read now, so that damage shows here
+        exif.get_ifd(ExifTags.IFD.GPSInfo)
+    orientation = exif.pop(ORIENTATION, 1)
+    try:
+        block = exif.tobytes() if len(exif) else None
+    except Exception as error:  # Pillow writes what it could read, but not every damaged tag
+        warn(f"{path}: its EXIF is damaged and dropped ({_first_line(error)})")
+        block = None
+    return (orientation if orientation in range(1, 9) else 1), block
+
+
+def _exif_of_tiff(picture: Picture) -> Any:
+    exif = Exif()
+    for tag in (*_KEPT_TIFF_TAGS, ORIENTATION):
+        if tag in picture.tags:
+            exif[tag] = picture.tags[tag]
+    if picture.image is not None:
+        source = picture.image.getexif()
+        for directory in (ExifTags.IFD.Exif, ExifTags.IFD.GPSInfo):
+            values = source.get_ifd(directory)
+            if values:
+                exif[directory] = dict(values)
+    return exif
+
+
+def _decode(path: Path, picture: Picture, icc: bytes | None) -> tuple[FloatArray, bool, bytes | None]:
+    """Samples float32 (H, W, 1..4), whether they are grey, and the profile that fits them."""
+    if picture.bits > 8 or picture.image is None:
+        samples = _decode_deep(path, picture)
+        return samples, samples.shape[2] <= 2, icc
+    image = picture.image
+    image.load()
+    if image.mode == "CMYK":
+        return _unit(_cmyk_to_srgb(path, image, icc)), False, None
+    has_alpha = "transparency" in image.info or image.mode in ("LA", "PA", "La", "RGBA", "RGBa")
+    grey = image.mode in ("1", "L", "LA", "La")
+    mode = {(True, False): "L", (True, True): "LA", (False, False): "RGB", (False, True): "RGBA"}[grey, has_alpha]
+    samples = np.asarray(image if image.mode == mode else image.convert(mode))
+    return _unit(samples), grey, icc
+
+
+def _cmyk_to_srgb(path: Path, image: Any, icc: bytes | None) -> NDArray[np.uint8]:
+    """Ink to light: through the embedded profile, or without one by the plain formula."""
+    from io import BytesIO
+
+    from PIL import ImageCms
+
+    if icc:
+        try:
+            converted = ImageCms.profileToProfile(image, BytesIO(icc), ImageCms.createProfile("sRGB"), outputMode="RGB")
+            return np.asarray(converted)
+        except ImageCms.PyCMSError:
+            warn(f"{path}: its CMYK profile is damaged; colors are converted without it")
+    return np.asarray(image.convert("RGB"))
+
+
+def _decode_deep(path: Path, picture: Picture) -> FloatArray:
+    """16-bit and floating-point samples, by OpenCV."""
+    if picture.format == "PNG":
+        picture.image.verify()  # OpenCV fills what is cut off with black and says nothing
+    samples = cv2.imdecode(np.fromfile(path, np.uint8), cv2.IMREAD_UNCHANGED)
+    if samples is None:
+        raise UnreadableFile(path, f"this kind of {picture.format} ({picture.bits} bits a channel) cannot be decoded")
+    samples = samples if samples.ndim == 3 else samples[..., None]
+    if samples.shape[2] >= 3:
+        samples = samples[..., [2, 1, 0, 3][: samples.shape[2]]]
+    if not np.isfinite(samples).all():
+        raise UnreadableFile(path, "has pixels that are not numbers (NaN or infinite)")
+    return _unit(samples)
+
+
+def _unit(samples: NDArray[Any]) -> FloatArray:
+    """float32 (H, W, channels); whole numbers are divided by their largest value."""
+    samples = samples if samples.ndim == 3 else samples[..., None]
+    if samples.dtype.kind == "f":
+        return samples.astype(np.float32)
+    unit: FloatArray = np.multiply(samples, np.float32(1 / np.iinfo(samples.dtype).max), dtype=np.float32)
+    return unit
+
+
+def _already_upright(picture: Picture) -> bool:
+    """Whether a decoded TIFF, unlike every other format, has been turned by its decoder: OpenCV always does, Pillow in
+    newer versions, and then it drops the tag."""
+    return picture.bits > 8 or picture.image is None or ORIENTATION not in picture.image.getexif()
+
+
+def _upright(samples: FloatArray, orientation: int) -> FloatArray:
+    """EXIF orientation applied: 5 to 8 are stored transposed; then mirrored along either axis."""
+    if orientation >= 5:
+        samples = samples.transpose(1, 0, 2)
+    if orientation in (3, 4, 7, 8):
+        samples = samples[::-1]
+    if orientation in (2, 3, 6, 7):
+        samples = samples[:, ::-1]
+    return samples
+
+
+def _first_line(error: BaseException) -> str:
+    return str(error).strip().split("\n")[0][:120] or type(error).__name__

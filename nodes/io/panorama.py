@@ -1,0 +1,73 @@
+"""Files of environment maps: OpenEXR, Radiance HDR, or any picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from graphface import UnreadableFile, UnwritableFile
+from graphface.nodes.color import decode_srgb
+from graphface.nodes.io.exr import read_exr, write_exr
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
+from graphface.nodes.types import Environment, FloatArray
+
+_HDR = (".hdr", ".pic")
+
+
+def read_panorama(path: Path) -> Environment:
+    """A panorama from OpenEXR, Radiance HDR, or any picture (decoded from sRGB).
+
+    Raises:
+        UnreadableFile: not there, not such a file, or nothing in it is finite.
+    """
+    radiance = _read(Path(path))
+    good = np.isfinite(radiance)
+    if not good.any():
+        raise UnreadableFile(path, "holds no finite radiance")
+    return Environment(np.where(good, np.maximum(radiance, 0), 0).astype(np.float32))
+
+
+def write_panorama(environment: Environment, path: Path) -> None:
+    """Write as the suffix says: .exr (float), .hdr, or any picture (encoded to sRGB, clipped).
+
+    Raises:
+        UnwritableFile: the folder cannot be written to, or the suffix is unknown.
+    """
+    path = Path(path)
+    if path.suffix.lower() == ".exr":
+        write_exr(environment.radiance, path)
+    elif path.suffix.lower() in _HDR:
+        _write_hdr(environment.radiance, path)
+    else:
+        write_picture(Environment.picture(environment), path)
+
+
+def _read(path: Path) -> FloatArray:
+    if not path.is_file():
+        raise UnreadableFile(path, "no such file")
+    if path.suffix.lower() == ".exr":
+        return read_exr(path)
+    if path.suffix.lower() in _HDR:
+        import cv2
+
+        blob = np.frombuffer(path.read_bytes(), np.uint8)
+        pixels = cv2.imdecode(blob, cv2.IMREAD_UNCHANGED) if len(blob) else None
+        if pixels is None or pixels.ndim != 3:
+            raise UnreadableFile(path, "not a Radiance HDR picture")
+        return np.ascontiguousarray(pixels[..., 2::-1], dtype=np.float32)
+    image = read_image(path)
+    return image.pixels if image.encoding == "linear" else decode_srgb(image.pixels)
+
+
+def _write_hdr(radiance: FloatArray, path: Path) -> None:
+    import cv2
+
+    done, blob = cv2.imencode(".hdr", np.ascontiguousarray(radiance[..., ::-1]))
+    if not done:
+        raise UnwritableFile(path, "could not be encoded as Radiance HDR")
+    try:
+        path.write_bytes(blob.tobytes())
+    except OSError as error:
+        raise UnwritableFile(path, error.strerror or str(error)) from None

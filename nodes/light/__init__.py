@@ -1,0 +1,1 @@
+"""Lights from elsewhere: of another photograph (`scene`), of a panorama (`panorama`)."""

@@ -1,0 +1,38 @@
+"""How much of the input's fine detail stays."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.types import Features, Mask
+
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+@node("makeup.keep")
+def keep(
+    features: Features,
+    *,
+    nose: Share = 1.0,
+    lids: Share = 1.0,
+    lips: Share = 0.6,
+    around: Share = 0.8,
+    brows: Share = 0.0,
+    elsewhere: Share = 0.0,
+) -> Mask:
+    """How much of the input's fine detail stays: the mask that detail maps are blended by."""
+    shares = (
+        (features.nose, nose),
+        (features.lids, lids),
+        (features.lips, lips),
+        (features.around, around),
+        (features.brows, brows),
+    )
+    mask = np.full_like(features.nose, elsewhere)
+    for part, share in shares:
+        mask = np.maximum(mask, part * np.float32(share))
+    return np.maximum(mask, np.maximum(features.eyes, features.mouth))

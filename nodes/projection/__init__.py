@@ -1,1 +1,0 @@
-"""What a surface in the picture is good for: correspondence, textures, visibility, export."""

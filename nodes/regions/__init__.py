@@ -1,0 +1,2 @@
+"""The regions of a face, `nine` of detail transfer, and the `features` that makeup leaves alone; both from one
+`atlas`."""

@@ -1,0 +1,28 @@
+"""The nine regions of detail transfer."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.regions.atlas import NAMES, atlas, projected
+from graphface.nodes.types import Image, Landmarks, Regions
+
+Softness = Annotated[float, Field(ge=0.01, le=0.5)]
+
+
+@node("regions.nine")
+def nine(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.08) -> Regions:
+    """The nine regions of one face.
+
+    Args:
+        photo: gives the size; its pixels are not read. landmarks: scheme "facemesh468".
+        softness: width of the way from 1 to 0, half of it inside the contour, in inter-ocular distances.
+
+    Raises:
+        UsageError: the landmarks follow another scheme.
+    """
+    drawn = atlas(softness)
+    return Regions(*projected([drawn[name] for name in NAMES], photo, landmarks))

@@ -1,0 +1,28 @@
+"""Shading of normals under a spherical-harmonic light."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphface import node
+from graphface.nodes.harmonics import basis, has_surface
+from graphface.nodes.strips import by_strips
+from graphface.nodes.types import Lighting, Normals, Shading
+
+
+@node("sh.render")
+def render(light: Lighting, normals: Normals) -> Shading:
+    """The shading of a surface under a light: sum_i c_i Y_i(n), never below 0; 0 where there is no surface.
+
+    Returns:
+        float32, H x W, or H x W x 3 for a colored light.
+    """
+    shading = np.zeros((*normals.shape[:2], *light.coefficients.shape[1:]), np.float32)
+
+    def strip(rows: slice) -> None:
+        covered = has_surface(normals[rows])
+        values = basis(normals[rows][covered], light.order) @ light.coefficients
+        shading[rows][covered] = np.maximum(values, 0)
+
+    by_strips(strip, normals.shape)
+    return shading

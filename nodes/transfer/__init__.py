@@ -1,0 +1,1 @@
+"""Detail transfer between regions of two faces, the input's light and albedo kept (paper, "Face Detail Transfer")."""

@@ -1,0 +1,83 @@
+"""What a face looks like: a picture split into albedo and shading, detail maps, textures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface.nodes.types.arrays import Albedo, Detail, FloatArray, Gain, Mask, Shading
+from graphface.nodes.types.geometry import Mesh
+from graphface.nodes.types.image import Image
+from graphface.nodes.types.pictures import picture_gain, picture_signed
+
+
+@dataclass(frozen=True)
+class Intrinsic:
+    """A picture split into `albedo` (H x W x 3) and `shading` (H x W): their product is the picture."""
+
+    albedo: Albedo
+    shading: Shading
+
+
+@dataclass(frozen=True)
+class DetailMap:
+    """What the photo has and rendering lacks: photo = gain * rendering + offset.
+
+    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is
+    all `gain`. Whoever recombines (`graphface.nodes.rendering.applied`) needs not know which method it was.
+
+    Where there is a `pivot`, the gain holds up to that rendering and light beyond it adds as it is:
+    photo = gain * min(rendering, pivot) + max(rendering - pivot, 0) + offset.
+
+    Where there is a `ceiling`, all but that light beyond the pivot stays below it: so a photo whose clipped highlights
+    were reconstructed beyond what it shows is shown as it is.
+    """
+
+    offset: Detail
+    gain: Gain | None = None
+    pivot: Albedo | None = None
+    ceiling: FloatArray | None = None
+
+    @staticmethod
+    def picture(detail: DetailMap) -> NDArray[np.uint8]:
+        return picture_signed(detail.offset) if detail.gain is None else picture_gain(detail.gain)
+
+
+@dataclass(frozen=True)
+class TexturedMesh:
+    """A mesh and its colors; written as .obj, .ply, .glb or .gltf."""
+
+    mesh: Mesh
+    texture: Texture
+
+    suffixes = Mesh.suffixes
+
+    @staticmethod
+    def to_file(textured: TexturedMesh, path: Path) -> None:
+        from graphface.nodes.io.mesh import write_mesh
+
+        write_mesh(textured.mesh, path, textured.texture)
+
+
+@dataclass(frozen=True)
+class Texture:
+    """A face's colors in the model's texture space: `image`, square; `seen` how far the photo shows a texel."""
+
+    image: Image
+    seen: Mask
+
+    @staticmethod
+    def picture(texture: Texture) -> NDArray[np.uint8]:
+        """The texture over grey where nothing was seen."""
+        seen = texture.seen[..., None]
+        return Image.picture(texture.image.with_pixels(texture.image.pixels * seen + 0.5 * (1 - seen)))
+
+    suffixes = Image.suffixes
+
+    @staticmethod
+    def to_file(texture: Texture, path: Any) -> None:
+        Image.to_file(replace(texture.image, alpha=texture.seen), path)

@@ -1,0 +1,61 @@
+"""Light as a value: spherical harmonics and panoramas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface.nodes.types.arrays import Direction, FloatArray, Shading
+from graphface.nodes.types.image import Image
+
+
+@dataclass(frozen=True)
+class Lighting:
+    """Spherical-harmonic light: `coefficients` float32 (n,) or (n, 3), real basis in (l, m) order with the constants
+    of Ramamoorthi and Hanrahan 2001; n = 1, 4, 9 or 16. Shading is sum_i coefficients[i] * Y_i(normal).
+    """
+
+    coefficients: FloatArray
+
+    @property
+    def order(self) -> int:
+        return round(float(np.sqrt(self.coefficients.shape[0]))) - 1
+
+
+@dataclass(frozen=True)
+class LightingFit:
+    """A fitted light, with `residual` (H x W, shading minus fit inside the mask, else 0), the solve's condition, and
+    the unit `direction` towards most of the light, (0, 0, 0) where it comes evenly."""
+
+    light: Lighting
+    residual: Shading
+    condition: float
+    direction: Direction = field(default_factory=lambda: np.zeros(3, np.float32))
+
+
+@dataclass(frozen=True)
+class Environment:
+    """Light from every direction: `radiance` float32 H x W x 3, linear, 0 or more; W is usually 2 H."""
+
+    radiance: FloatArray
+
+    @classmethod
+    def from_file(cls, path: Path) -> Environment:
+        from graphface.nodes.io.panorama import read_panorama
+
+        return read_panorama(path)
+
+    @staticmethod
+    def to_file(environment: Environment, path: Path) -> None:
+        from graphface.nodes.io.panorama import write_panorama
+
+        write_panorama(environment, path)
+
+    @staticmethod
+    def picture(environment: Environment) -> NDArray[np.uint8]:
+        """Encoded to sRGB, with the mean radiance at mid grey where it is brighter than the picture can show."""
+        radiance = environment.radiance
+        return Image.picture(Image(radiance / max(1.0, 4 * float(radiance.mean())), encoding="linear"))

@@ -1,0 +1,128 @@
+"""A photograph as a value, and pictures from arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface.nodes.color import encode_srgb
+from graphface.nodes.types.arrays import PICTURES, Encoding, FloatArray
+from graphface.nodes.types.pictures import as_bytes
+
+
+@dataclass(frozen=True)
+class FileFormat:
+    """What a picture file carries besides its pixels, kept so that saving gives it back.
+
+    `bits` is 8 or 16 a channel; `icc` and `exif` are the raw blocks (EXIF with its orientation already applied and
+    reset), `grey` where the file had a single channel.
+    """
+
+    name: str = "PNG"
+    bits: int = 8
+    icc: bytes | None = None
+    exif: bytes | None = None
+    grey: bool = False
+
+
+@dataclass(frozen=True)
+class Image:
+    """A photograph: `pixels` float32 H x W x 3 RGB, nominally 0..1; `alpha` float32 H x W or None."""
+
+    pixels: FloatArray
+    alpha: FloatArray | None = None
+    encoding: Encoding = "srgb"
+    file: FileFormat = FileFormat()
+
+    suffixes = PICTURES
+
+    @property
+    def height(self) -> int:
+        return int(self.pixels.shape[0])
+
+    @property
+    def width(self) -> int:
+        return int(self.pixels.shape[1])
+
+    def with_pixels(self, pixels: FloatArray, encoding: Encoding | None = None) -> Image:
+        """The same picture with other pixels: alpha and what the file carried are kept."""
+        return replace(self, pixels=pixels.astype(np.float32, copy=False), encoding=encoding or self.encoding)
+
+    @classmethod
+    def from_file(cls, path: Path) -> Image:
+        from graphface.nodes.io.image_read import read_image
+
+        return read_image(path)
+
+    @staticmethod
+    def to_file(image: Image, path: Path, text: Mapping[str, str] | None = None) -> None:
+        from graphface.nodes.io.image_write import write_image
+
+        write_image(image, path, text=text)
+
+    @staticmethod
+    def text_in_file(path: Path) -> dict[str, str]:
+        from graphface.nodes.io.image_text import read_text
+
+        return read_text(path)
+
+    @classmethod
+    def coerce(cls, value: object) -> Image:
+        return image_from_array(value)
+
+    @staticmethod
+    def picture(image: Image) -> NDArray[np.uint8]:
+        return as_bytes(encode_srgb(image.pixels) if image.encoding == "linear" else image.pixels)
+
+
+BRIGHTEST = 64.0
+"""A float picture above this is taken for one in 0..255, and refused."""
+
+
+def image_from_array(value: object) -> Image:
+    """A picture from what people have in a notebook.
+
+    Args:
+        value: an `Image` (returned as it is), or an array of H x W, H x W x 1 (grey), H x W x 3 (RGB) or H x W x 4
+            (RGB and alpha): uint8, uint16, bool, or floating in 0..1. The array is copied.
+
+    Raises:
+        ValueError: another shape, dtype or range, no pixels, or values that are not numbers.
+    """
+    if isinstance(value, Image):
+        return value
+    array = np.asarray(value)
+    if array.ndim == 2:
+        array = array[..., None]
+    if array.ndim != 3 or array.shape[2] not in (1, 3, 4) or array.size == 0:
+        raise ValueError(
+            f"expected a picture of H x W, H x W x 3 or H x W x 4, got {type(value).__name__} of shape "
+            f"{np.asarray(value).shape}"
+        )
+    unit = _unit(array)
+    channels = unit.shape[2]
+    pixels = np.repeat(unit, 3, axis=2) if channels == 1 else np.ascontiguousarray(unit[..., :3])
+    alpha = np.ascontiguousarray(unit[..., 3]) if channels == 4 else None
+    bits = 16 if array.dtype.itemsize > 1 else 8
+    return Image(pixels, alpha, file=FileFormat(bits=bits, grey=channels == 1))
+
+
+def _unit(array: np.ndarray[Any, np.dtype[Any]]) -> FloatArray:
+    """A float32 copy in 0..1."""
+    if array.dtype in (np.uint8, np.uint16):
+        return array.astype(np.float32) / np.float32(np.iinfo(array.dtype).max)
+    if array.dtype == np.bool_:
+        return array.astype(np.float32)
+    if array.dtype.kind != "f":
+        raise ValueError(f"expected a picture of uint8, uint16, bool or floating values, got {array.dtype}")
+    if not np.isfinite(array).all():
+        raise ValueError("the picture has values that are not numbers (NaN or infinite)")
+    brightest = float(np.abs(array).max())
+    if brightest > BRIGHTEST:
+        raise ValueError(f"floating pictures are nominally 0..1, this one reaches {brightest:.4g}; divide it by 255?")
+    return array.astype(np.float32)

@@ -1,0 +1,48 @@
+"""The whole representation of a face (paper, section 2) as one value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from graphface.nodes.types.appearance import DetailMap
+from graphface.nodes.types.arrays import Albedo, Mask, Shading
+from graphface.nodes.types.face_parts import Segmentation
+from graphface.nodes.types.geometry import Landmarks, Mesh, Surface
+from graphface.nodes.types.illumination import Lighting
+from graphface.nodes.types.image import Image
+from graphface.nodes.types.relighting import Surroundings
+
+
+@dataclass(frozen=True)
+class Representation:
+    """Everything that `represent.yaml` finds in a photo; the fields are its outputs of the same names."""
+
+    working: Image
+    landmarks: Landmarks
+    mesh: Mesh
+    surface: Surface
+    mask: Mask
+    labels: Segmentation
+    head: Mesh
+    head_surface: Surface
+    head_mask: Mask
+    surroundings: Surroundings
+    albedo: Albedo
+    shading: Shading
+    light: Lighting
+    estimated: Shading
+    spread: Shading
+    detail: DetailMap
+
+    @classmethod
+    def from_file(cls, path: Path) -> Representation:
+        from graphface.nodes.io.representation import read_representation
+
+        return read_representation(path)
+
+    @staticmethod
+    def to_file(representation: Representation, path: Path) -> None:
+        from graphface.nodes.io.representation import write_representation
+
+        write_representation(representation, path)

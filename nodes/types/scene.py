@@ -1,0 +1,129 @@
+"""What the picture is to be lit by: scene files.
+
+    doc: A window to the left.
+    mode: replace
+    ambient: 0.3
+    lights:
+      - {type: directional, azimuth: -55, elevation: 20, intensity: 1.2, kelvin: 5200, shadow: soft}
+      - {type: spot, azimuth: 60, elevation: 30, distance: 4, cone: 12, color: [0.4, 0.5, 1.0]}
+
+An ambient of 1 leaves the brightness as it is, and a scene means the same for a bright photo and for a dark one; see
+`graphface.nodes.types.lights` for the units and the kinds of light.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from graphface import read_yaml, validated
+from graphface.nodes.types.lights import (
+    Casting,
+    Color,
+    DirectionalLight,
+    EnvironmentLight,
+    HarmonicLight,
+    Light,
+    Nonnegative,
+    Part,
+    PointLight,
+)
+
+_BEHIND = -0.9
+"""Cosine to the viewer's direction below which a light only grazes what the camera sees: its shadow would not show."""
+
+
+class Scene(Part):
+    """A scene file's content.
+
+    `mode`: the lights `replace` the photo's own, are `add`ed to it, or `mix` with it by the share `mix`. With
+    `keep_mean` (replace and mix) the lights are scaled together so that the face stays as bright as it was, times
+    `exposure`; without it irradiance is taken as written, times `exposure`.
+
+    `background` is the share of the new light on what is neither face nor hair. `hair` is how much of the old light
+    hair keeps at its brightest pixels, which are its highlights. `scatter` is the radius, in inter-ocular distances,
+    over which light spreads beneath the skin. `specular` is the strength of the highlights that the new lights make on
+    the skin, `roughness` their width. At background 1, hair 0, scatter 0 and specular 0 none of these is simulated.
+    """
+
+    doc: str = ""
+    mode: Literal["replace", "add", "mix"] = "replace"
+    mix: Annotated[float, Field(ge=0, le=1)] = 0.5
+    ambient: Nonnegative | Color = 0.0
+    lights: tuple[Light, ...] = ()
+    keep_mean: bool = True
+    exposure: Annotated[float, Field(ge=0, le=100)] = 1.0
+    background: Annotated[float, Field(ge=0, le=1)] = 0.35
+    hair: Annotated[float, Field(ge=0, le=1)] = 0.5
+    scatter: Annotated[float, Field(ge=0, le=1)] = 0.0
+    specular: Annotated[float, Field(ge=0, le=10)] = 0.0
+    roughness: Annotated[float, Field(ge=0.05, le=1)] = 0.35
+
+    @property
+    def colored(self) -> bool:
+        """Whether any light is colored: only then has the shading three channels."""
+        ambient = isinstance(self.ambient, tuple) and len(set(self.ambient)) > 1
+        return ambient or any(light.colored for light in self.lights)
+
+    @property
+    def unchanged(self) -> bool:
+        """Whether the scene is the photo's own light, whatever the photo."""
+        if self.mode == "mix":
+            return self.mix == 0
+        return self.mode == "add" and (self.exposure == 0 or self.dark)
+
+    @property
+    def dark(self) -> bool:
+        """Whether there is no light in it."""
+        return not np.any(self.ambient) and not any(light.radiance.any() for light in self.lights)
+
+    @property
+    def local(self) -> bool:
+        """Whether a light is near enough that it matters where a point of the face lies."""
+        return any(isinstance(light, PointLight) for light in self.lights)
+
+    @property
+    def surrounded(self) -> bool:
+        """Whether a panorama lights the face."""
+        return any(isinstance(light, EnvironmentLight) and light.radiance.any() for light in self.lights)
+
+    @property
+    def casting(self) -> dict[int, Casting]:
+        """The lights that cast a shadow that the camera could see, by their place in `lights`."""
+        return {
+            index: light
+            for index, light in enumerate(self.lights)
+            if not isinstance(light, HarmonicLight | EnvironmentLight)
+            and light.shadow != "none"
+            and light.radiance.any()
+            and _toward_viewer(light) > _BEHIND
+        }
+
+    @classmethod
+    def from_file(cls, path: Path) -> Scene:
+        """Read a scene file.
+
+        Raises:
+            UnreadableFile: there is no such file, or it is not text.
+            DocumentError: not YAML, or not a scene; every mistake with its line and what was expected.
+        """
+        return read_yaml(path, cls)
+
+    @classmethod
+    def coerce(cls, value: object) -> Scene:
+        """A scene from a mapping, or from the path of a scene file.
+
+        Raises:
+            DocumentError, UnreadableFile: as `from_file`.
+        """
+        return cls.from_file(Path(value)) if isinstance(value, str | Path) else validated(value, cls)
+
+
+def _toward_viewer(light: Casting) -> float:
+    """Cosine between the light's direction and the viewer's, seen from the middle of the face."""
+    if isinstance(light, DirectionalLight):
+        return float(light.towards[2])
+    return float(light.place[2]) / max(float(np.linalg.norm(light.place)), 1e-6)
