@@ -19,6 +19,7 @@ from graphface.node import Cosmetic, Needs, node
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
+    from graphface.document.typed_yaml import read_yaml, validated
     from graphface.errors import (
         DocumentError,
         GraphfaceError,
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
         UnwritableFile,
         UsageError,
     )
-    from graphface.document.typed_yaml import read_yaml, validated
     from graphface.evaluate.evaluator import Evaluator, Result
     from graphface.evaluate.observe import Observer
     from graphface.facade import Graph, load

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from graphface.document.located import Map, Seq, parse, plain, file_source
+from graphface.document.located import Map, Seq, file_source, parse, plain
 from graphface.errors import Problem, nearest_names
 from graphface.place import Place, Source
 
@@ -113,8 +113,7 @@ def parse_document(source: Source, path: Path | None = None) -> tuple[Document, 
     tree, problems = parse(source)
     document = Document(source, path)
     if not isinstance(tree, Map):
-        start = source.place((1 << 20) | 1)
-        return document, [*problems, Problem("a graph file is a mapping that begins with 'graphface: 1'", start)]
+        return document, [*problems, Problem("a graph file is a mapping that begins with 'graphface: 1'", source.start)]
     return document, problems + list(_read_top(tree, document))
 
 
@@ -218,7 +217,7 @@ def _read_overlays(tree: Map, document: Document) -> Iterator[Problem]:
         for name, body, place, key_place in _section(tree, section):
             yield from _check_name(name, key_place)
             target[name], problems = read_overlay(
-                body if body is not None else Map(tree.source, 0), place, settings_only=settings_only
+                body if body is not None else Map(place), place, settings_only=settings_only
             )
             yield from problems
 

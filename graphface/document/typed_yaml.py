@@ -18,9 +18,12 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from graphface.document.located import parse, plain, file_source
+from graphface.document.located import file_source, parse, plain
 from graphface.document.mistakes import mistakes
 from graphface.errors import DocumentError
+
+MAX_BYTES = 1 << 20
+"""A graph may be large; what people write besides graphs is not."""
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -32,9 +35,9 @@ def read_yaml(path: Path | str, model: type[Model]) -> Model:
         UnreadableFile: there is no such file, or it is not UTF-8 text.
         DocumentError: it is not YAML, or not what the model asks for; with all mistakes.
     """
-    source = file_source(Path(path))
+    source = file_source(Path(path), MAX_BYTES)
     tree, problems = parse(source)
-    problems += mistakes(tree, model, source.place((1 << 20) | 1))
+    problems += mistakes(tree, model, source.start)
     if problems:
         raise DocumentError(problems)
     return model.model_validate(plain(tree))

@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from graphface.document.located import plain, scalar
+from graphface.document.located import plain
+from graphface.document.scalars import scalar
 from graphface.errors import DocumentError, InputError, UnreadableFile, nearest_names
 from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value

@@ -99,7 +99,7 @@ class TestOne:
     @pytest.mark.parametrize(
         ("text", "shown", "words"),
         [
-            ("shapes: [{kind: circle, radius: 11}]", "11}]", "shapes[0].radius: input should be less than or equal to 10"),
+            ("shapes: [{kind: circle, radius: 11}]", "11}]", "[0].radius: input should be less than or equal to 10"),
             ("shapes: [{kind: circle, radius: .nan}]", ".nan}]", "finite number, got nan"),
             ("shapes: [{kind: circle, radius: big}]", "big}]", "shapes[0].radius: input should be a number, got 'big'"),
             ("shapes: [{kind: circle, diameter: [1]}]", "[1]}]", "input should be a number, got [1]"),
