@@ -4,7 +4,8 @@ The names of nodes and inputs are words; a path ("face/landmarks") is the name t
 flat form of `graphface.document.effective`. This module knows the form of one file and nothing of the others: what
 another file says is known when files are composed (`graphface.document.compose`), what an operator's parameters are
 called when the graph is wired (`graphface.graph.wiring`). All mistakes of a file are collected and reported at once. A
-hand-written reader instead of a pydantic model, since pydantic copies the tree and loses the places on the way.
+hand-written reader instead of a pydantic model (`graphface.document.typed_yaml`), since here the values keep their
+places: what is wrong with many of them is only known later.
 """
 
 from __future__ import annotations
@@ -141,6 +142,20 @@ def read_overlay(entries: Any, place: Place, *, settings_only: bool) -> tuple[di
 
 def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
     yield from _unknown_keys(tree, _TOP, "a graph file")
+    yield from _read_head(tree, document)
+    yield from _read_inputs(tree, document)
+    yield from _read_nodes(tree, document)
+    yield from _read_outputs(tree, document)
+    yield from _read_overlays(tree, document)
+    for section in ("inputs", "nodes", "outputs", "variants", "profiles"):
+        if tree.get(section) is not None and not isinstance(tree[section], Map):
+            yield Problem(f"{section!r} is a mapping", tree.value_place(section))
+    for name in (name for name in document.nodes if name in document.inputs):
+        first = document.inputs[name].place
+        yield Problem(f"{name!r} is an input (line {first.line}) and a node; rename one", document.nodes[name].place)
+
+
+def _read_head(tree: Map, document: Document) -> Iterator[Problem]:
     version = tree.get("graphface")
     if version != FORMAT or isinstance(version, bool):
         place = tree.value_place("graphface") if "graphface" in tree else tree.place
@@ -156,25 +171,6 @@ def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
             document.extends = Setting(tree["extends"], tree.value_place("extends"))
         else:
             yield Problem("'extends' names one graph file", tree.value_place("extends"))
-    yield from _read_inputs(tree, document)
-    for name, body, place, key_place in _section(tree, "nodes"):
-        yield from _check_path(name, key_place)
-        node = NodeEntry(name, key_place)
-        document.nodes[name] = node
-        if body is None:
-            node.removed = True
-        elif isinstance(body, Map):
-            yield from _read_node(body, node)
-        else:
-            yield Problem(f"node {name!r}: expected a mapping with 'use', 'in' and 'with'", place)
-    yield from _read_outputs(tree, document)
-    yield from _read_overlays(tree, document)
-    for section in ("inputs", "nodes", "outputs", "variants", "profiles"):
-        if tree.get(section) is not None and not isinstance(tree[section], Map):
-            yield Problem(f"{section!r} is a mapping", tree.value_place(section))
-    for name in (name for name in document.nodes if name in document.inputs):
-        first = document.inputs[name].place
-        yield Problem(f"{name!r} is an input (line {first.line}) and a node; rename one", document.nodes[name].place)
 
 
 def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
@@ -195,6 +191,19 @@ def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
             yield Problem(
                 f"input {name!r}: expected a type, as in '{name}: Image' or '{{type: Image, default: ...}}'", place
             )
+
+
+def _read_nodes(tree: Map, document: Document) -> Iterator[Problem]:
+    for name, body, place, key_place in _section(tree, "nodes"):
+        yield from _check_path(name, key_place)
+        node = NodeEntry(name, key_place)
+        document.nodes[name] = node
+        if body is None:
+            node.removed = True
+        elif isinstance(body, Map):
+            yield from _read_node(body, node)
+        else:
+            yield Problem(f"node {name!r}: expected a mapping with 'use', 'in' and 'with'", place)
 
 
 def _read_outputs(tree: Map, document: Document) -> Iterator[Problem]:

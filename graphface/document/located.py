@@ -73,7 +73,7 @@ def file_source(path: Path, max_bytes: int = MAX_BYTES) -> Source:
         with path.open("rb") as file:
             content = file.read(max_bytes + 1)
         if len(content) > max_bytes:
-            raise UnreadableFile(path, f"larger than {max_bytes >> 20} MiB")
+            raise UnreadableFile(path, f"larger than {max_bytes >> 10:,} KiB")
         return Source(str(path), content.decode("utf-8-sig"), path)
     except UnicodeDecodeError as error:
         raise UnreadableFile(path, f"not UTF-8 text (byte {error.start} is 0x{content[error.start]:02x})") from None

@@ -31,6 +31,9 @@ _KINDS = {
 }
 """Pydantic's errors about the kind of a value, and what a user of YAML calls that kind."""
 
+_MOST = 100
+"""Mistakes after which no more are looked for: whoever has so many does not read them."""
+
 _SHOWN = 60
 """Characters of a wrong value that a message shows."""
 
@@ -45,7 +48,7 @@ def mistakes(tree: Any, model: type[BaseModel], place: Place | None = None) -> l
     top = TypedValue(tree, place or getattr(tree, "place", None), (model,))
     copied = _copied(tree)
     found: dict[tuple[Keys, str], _Mistake] = {}
-    while True:
+    while len(found) < _MOST:
         try:
             model.model_validate(copied)
             break
@@ -117,7 +120,7 @@ class _Error:
 
 def _read(error: ValidationError, top: TypedValue) -> dict[tuple[Keys, str], _Mistake]:
     """Pydantic's errors as mistakes; of a union those of the members that come nearest to what is written."""
-    errors = [_led_to(detail, top) for detail in error.errors(include_url=False)]
+    errors = [_led_to(detail, top) for detail in error.errors(include_url=False)[:_MOST]]
     fits: dict[tuple[Keys, str], tuple[int, bool]] = {}
     for found in errors:
         for member in found.at.members:
@@ -169,25 +172,30 @@ def _mistake(error: _Error, kinds: Sequence[str]) -> _Mistake:
 
 
 def _wrong_tag(detail: Mapping[str, Any], at: TypedValue) -> _Mistake:
-    """A union's member that is not said, or that there is not; the likely one is then read as if it were said."""
+    """A union's member that is misspelt or not said; the likely one is then read as if it were said."""
     key = detail["ctx"]["discriminator"].strip("'")
-    members = {tag: m for m in at.models for tag in choices_of(m, key)}
-    known = ", ".join(map(str, members))
+    members = {str(tag): model for model in at.models for tag in choices_of(model, key)}
+    known = ", ".join(members)
     if key in at.value:
         tag, place = at.value[key], at.inside(key).place
-        nearest = nearest_names(str(tag), map(str, members), 1)
+        nearest = nearest_names(str(tag), members, 1)
         problem = Problem(f"{at}: unknown {key} {tag!r} (it is one of {known})", place, tuple(nearest))
-        return _Mistake(problem, (*at.keys, key), nearest[0]) if nearest else _Mistake(problem)
-    misspelt = nearest_names(key, (k for k in at.value if isinstance(k, str) and k not in at.names), 1)
-    if misspelt and at.value[misspelt[0]] in list(members):
-        problem = Problem(f"{at} has no entry {misspelt[0]!r}", at.key_place(misspelt[0]), (key,))
-        right = {key if k == misspelt[0] else k: v for k, v in _copied(at.value).items()}
-        return _Mistake(problem, at.keys, right)
-    counts = {str(tag): len(fields(m).keys() & at.value.keys()) for tag, m in members.items()}
-    likely = [tag for tag, count in counts.items() if count == max(counts.values()) > 0]
-    nearest = likely if len(likely) <= 3 else []
-    problem = Problem(f"{at} has no {key!r} (it is one of {known})", at.place, tuple(nearest))
+    else:
+        for misspelt in nearest_names(key, (k for k in at.value if isinstance(k, str) and k not in at.names), 1):
+            if str(at.value[misspelt]) in members:
+                problem = Problem(f"{at} has no entry {misspelt!r}", at.key_place(misspelt), (key,))
+                right = {key if k == misspelt else k: v for k, v in _copied(at.value).items()}
+                return _Mistake(problem, at.keys, right)
+        nearest = _likely(members, at.value)
+        problem = Problem(f"{at} has no {key!r} (it is one of {known})", at.place, tuple(nearest))
     return _Mistake(problem, (*at.keys, key), nearest[0]) if nearest else _Mistake(problem)
+
+
+def _likely(members: Mapping[str, type[BaseModel]], value: Mapping[str, Any]) -> list[str]:
+    """The members of a union that have most of the keys written; none where those are many, or have none of them."""
+    counts = {tag: len(fields(model).keys() & value.keys()) for tag, model in members.items()}
+    likely = [tag for tag, count in counts.items() if count == max(counts.values()) > 0]
+    return likely if len(likely) <= 3 else []
 
 
 def _right_value(error: _Error, choices: Sequence[str]) -> tuple[Keys, Any]:

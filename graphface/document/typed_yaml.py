@@ -22,8 +22,8 @@ from graphface.document.located import file_source, parse, plain
 from graphface.document.mistakes import mistakes
 from graphface.errors import DocumentError
 
-MAX_BYTES = 1 << 20
-"""A graph may be large; what people write besides graphs is not."""
+MAX_BYTES = 1 << 18
+"""Of a file: such files are written by hand, and read before anything runs."""
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -32,7 +32,7 @@ def read_yaml(path: Path | str, model: type[Model]) -> Model:
     """The content of a YAML file as a pydantic model.
 
     Raises:
-        UnreadableFile: there is no such file, or it is not UTF-8 text.
+        UnreadableFile: there is no such file, it is larger than `MAX_BYTES`, or it is not UTF-8 text.
         DocumentError: it is not YAML, or not what the model asks for; with all mistakes.
     """
     source = file_source(Path(path), MAX_BYTES)
