@@ -14,13 +14,14 @@ import importlib
 import os.path
 from typing import TYPE_CHECKING, Any
 
-from graphface.node import Cosmetic, Needs, node
+from graphface.node import Cosmetic, Formerly, Needs, node
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
     from graphface.document.typed_yaml import read_yaml, validated
     from graphface.errors import (
+        DeclarationError,
         DocumentError,
         GraphfaceError,
         InputError,
@@ -35,7 +36,8 @@ if TYPE_CHECKING:
     from graphface.evaluate.observe import Observer
     from graphface.facade import Graph, load
     from graphface.fallback import GraphfaceWarning, warn
-    from graphface.registry import Pack, Registry
+    from graphface.packs import Pack
+    from graphface.registry import Registry
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -49,6 +51,7 @@ if not os.path.isdir(os.path.join(__path__[0], "nodes")) and os.path.isdir(os.pa
 _HOMES = {
     "ArrayType": "values.port_types",
     "Asset": "assets.asset",
+    "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
     "Graph": "facade",
@@ -59,7 +62,7 @@ _HOMES = {
     "MemoryTier": "cache.memory",
     "NodeError": "errors",
     "Observer": "evaluate.observe",
-    "Pack": "registry",
+    "Pack": "packs",
     "Registry": "registry",
     "Result": "evaluate.evaluator",
     "RunError": "errors",
@@ -77,8 +80,10 @@ __all__ = [
     "ArrayType",
     "Asset",
     "Cosmetic",
+    "DeclarationError",
     "DocumentError",
     "Evaluator",
+    "Formerly",
     "Graph",
     "GraphfaceError",
     "GraphfaceWarning",

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from graphface.code_line import CodeLine
 from graphface.place import Place
 from graphface.record import Record
 
@@ -37,6 +38,34 @@ class PluginError(UsageError):
         self.path = path
 
 
+@dataclass(frozen=True)
+class WrongArgument:
+    """One argument of an operator that is declared wrongly ("return" for its output), and what to write instead."""
+
+    name: str
+    reason: str
+
+    def __str__(self) -> str:
+        what = "output" if self.name == "return" else f"argument {self.name!r}"
+        return f"{what}: {self.reason}" if self.name else self.reason
+
+
+class DeclarationError(UsageError, TypeError):
+    """A function cannot be an operator as its signature is.
+
+    Attributes:
+        operator: its name. file, line: where it is declared. wrong: every argument that has to be changed.
+    """
+
+    def __init__(self, operator: str, file: str, line: int, wrong: Sequence[WrongArgument]) -> None:
+        self.operator = operator
+        self.file = file
+        self.line = line
+        self.wrong = list(wrong)
+        told = "; ".join(str(argument) for argument in self.wrong)
+        super().__init__(f"{file}:{line}: operator {operator!r}: {told}")
+
+
 class UnknownName(UsageError, LookupError):
     """A name that means nothing; `nearest` are the likely ones meant."""
 
@@ -53,7 +82,18 @@ class UnknownName(UsageError, LookupError):
 
 
 class UnknownOperator(UnknownName):
+    """No such operator; `reason` is the sentence without the nearest names.
+
+    Args:
+        why: what is known about its absence: its module is broken, say.
+    """
+
     kind = "operator"
+
+    def __init__(self, name: str, known: Iterable[str], why: str = "") -> None:
+        super().__init__(name, known)
+        self.reason = f"unknown operator {name!r}{f': {why}' if why else ''}"
+        self.args = (f"{self.reason}{did_you_mean(self.nearest)}",)
 
 
 class UnknownType(UnknownName):
@@ -100,6 +140,7 @@ class NodeError(RunError):
         node, operator: their names. place: where the graph file states the node.
         inputs: port to a short description of the value it got (shape, dtype, range).
         files: the files given for graph inputs that it depends on.
+        code: the line of the operator's own code where it failed; None where that is not known.
     """
 
     def __init__(
@@ -110,6 +151,7 @@ class NodeError(RunError):
         reason: str,
         inputs: dict[str, str],
         files: Sequence[str] = (),
+        code: CodeLine | None = None,
     ) -> None:
         self.node = node
         self.operator = operator
@@ -117,8 +159,10 @@ class NodeError(RunError):
         self.reason = reason
         self.inputs = inputs
         self.files = list(files)
+        self.code = code
         where = f"{place}: " if place is not None else ""
         lines = [f"{where}node {node!r} ({operator}) failed: {reason}"]
+        lines += [f"    {line}" for line in str(code).splitlines()] if code is not None else []
         lines += [f"    {port}: {shown}" for port, shown in inputs.items()]
         lines += [f"    from {', '.join(self.files)}"] if self.files else []
         super().__init__("\n".join(lines))
@@ -131,7 +175,7 @@ class NonFiniteError(NodeError):
 class RunFailed(RunError):
     """One or more nodes failed; `failures` has each, `finished` the values of outputs that did not need them.
 
-    `records` says what became of every node.
+    `records` says what became of every node. The cause is the original exception of the first failure.
     """
 
     def __init__(
@@ -141,6 +185,7 @@ class RunFailed(RunError):
         self.finished = finished
         self.records = list(records)
         super().__init__("\n".join(str(f) for f in self.failures))
+        self.__cause__ = self.failures[0].__cause__ if self.failures else None
 
 
 class UnreadableFile(UsageError):

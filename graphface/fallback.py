@@ -13,7 +13,7 @@ collector: ContextVar[list[str] | None] = ContextVar("graphface_warnings", defau
 
 
 class GraphfaceWarning(UserWarning):
-    """A node fell back: the result is finite and usable, but not what the easy case would give."""
+    """Something works, but not as asked: a node fell back, a graph file uses an old name, a plug-in was left out."""
 
 
 def warn(message: str) -> None:

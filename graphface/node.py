@@ -15,11 +15,12 @@ from __future__ import annotations
 
 import inspect
 import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from graphface.declaration import Signature, parameter_model, read_signature
 from graphface.values.port_types import PortType, is_lazy, output_fields, port_type
 
 if TYPE_CHECKING:
@@ -35,7 +36,20 @@ class Cosmetic:
     """Put into a parameter's `Annotated` where it cannot change the result (a label, a thread count): no key has it."""
 
 
-def node(name: str, *, version: int = 1, needs: Callable[..., Needs] | None = None) -> Callable[[F], F]:
+class Formerly:
+    """Put into the `Annotated` of a port or parameter that was renamed: its old names go on working, with a warning.
+
+    @node("makeup.beard", formerly=("makeup.shaved",))
+    def beard(photo: Image, *, softness: Annotated[float, Field(gt=0), Formerly("doubt")] = 0.1) -> Mask: ...
+    """
+
+    def __init__(self, *names: str) -> None:
+        self.names = names
+
+
+def node(
+    name: str, *, version: int = 1, needs: Callable[..., Needs] | None = None, formerly: tuple[str, ...] = ()
+) -> Callable[[F], F]:
     """Declare a function as the operator `name` ("family.method").
 
     Args:
@@ -43,10 +57,13 @@ def node(name: str, *, version: int = 1, needs: Callable[..., Needs] | None = No
         version: raise it to invalidate memoized results where the change is not in the code (a data file, say).
         needs: for functions with `Lazy` ports. Called with those of the eager inputs and parameters that it names;
             returns for each lazy port True, or a sentence saying why it is not wanted.
+        formerly: names that the operator had before. Graph files that use them still work, with a warning. One of
+            another family must stand in the pack's `formerly` too, so that it is found without importing every family.
     """
 
     def declare(function: F) -> F:
-        function.__graphface_operator__ = Operator(name, function, version, needs)  # type: ignore[attr-defined]
+        operator = Operator(name, function, version, needs, tuple(formerly))
+        function.__graphface_operator__ = operator  # type: ignore[attr-defined]
         return function
 
     return declare
@@ -68,6 +85,7 @@ class Operator:
     function: Callable[..., Any]
     version: int = 1
     needs: Callable[..., Needs] | None = None
+    formerly: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"Operator({self.name!r})"
@@ -121,15 +139,12 @@ class Operator:
     @cached_property
     def parameters(self) -> type[BaseModel]:
         """The pydantic model of the keyword-only arguments; unknown names are refused."""
-        from pydantic import ConfigDict, create_model
-
         fields: dict[str, Any] = {}
         for argument in self._signature.parameters.values():
             if argument.kind is argument.KEYWORD_ONLY:
                 default = ... if argument.default is argument.empty else argument.default
                 fields[argument.name] = (self._hints[argument.name], default)
-        config = ConfigDict(extra="forbid", validate_default=True, allow_inf_nan=False)
-        return create_model(f"{self.name} parameters", __config__=config, **fields)
+        return parameter_model(self.name, self.function, fields)
 
     @cached_property
     def cosmetic(self) -> frozenset[str]:
@@ -138,21 +153,44 @@ class Operator:
         return frozenset(marked)
 
     @cached_property
+    def renamed(self) -> dict[str, str]:
+        """Old names of ports and parameters, each with the present one."""
+        arguments = {name: self._hints[name] for name in self._signature.parameters}
+        return {old: name for name, hint in arguments.items() for old in _former_names(hint) if old not in arguments}
+
+    @cached_property
     def rule_arguments(self) -> tuple[str, ...]:
         """The inputs and parameters that the `needs` rule asks to see."""
         return () if self.needs is None else tuple(inspect.signature(self.needs).parameters)
 
-    @cached_property
+    def check(self) -> None:
+        """Read the declaration, as everything else here does when it is first asked for.
+
+        Raises:
+            DeclarationError: the function cannot be an operator as it is.
+        """
+        _ = self._declaration, self.parameters
+
+    @property
     def _signature(self) -> inspect.Signature:
-        return inspect.signature(self.function)
+        return self._declaration[0]
+
+    @property
+    def _hints(self) -> dict[str, Any]:
+        return self._declaration[1]
 
     @cached_property
-    def _hints(self) -> dict[str, Any]:
-        hints = typing.get_type_hints(self.function, include_extras=True)
-        missing = [n for n in (*self._signature.parameters, "return") if n not in hints]
-        if missing:
-            raise TypeError(f"operator {self.name!r}: no annotation for {', '.join(missing)}")
-        return hints
+    def _declaration(self) -> Signature:
+        return read_signature(self.name, self.function, self.needs)
+
+
+def _former_names(annotation: Any) -> Iterator[str]:
+    """The names in the `Formerly` of an annotation, also of one that stands inside another ("Lazy[Annotated[...]]")."""
+    for mark in getattr(annotation, "__metadata__", ()):
+        if isinstance(mark, Formerly):
+            yield from mark.names
+    for inner in typing.get_args(annotation):
+        yield from _former_names(inner)
 
 
 def operator_of(function: object) -> Operator | None:

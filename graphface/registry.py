@@ -1,59 +1,26 @@
-"""Where operators are found: installed packs, and plug-in files named on the command line.
-
-A pack maps operator families to modules, so that a graph which uses one method imports one module: a matting
-Laplacian is not loaded to turn a photo grey. An installed distribution offers its pack through the
-`graphface.nodes` entry-point group:
-
-    pack = Pack("mine", operators={"blur": "mine.blur"}, types={"Blurred": "mine.blur:Blurred"})
-"""
+"""Where operators and types are found by their names: those of installed packs, and those added on top of them."""
 
 from __future__ import annotations
 
 import importlib
 import importlib.util
-import os.path
-import sys
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from graphface.errors import PluginError, UnknownOperator, UnknownType
+from graphface.errors import DeclarationError, PluginError, UnknownOperator, UnknownType
+from graphface.fallback import warn
 from graphface.node import Operator, operator_of
+from graphface.packs import Pack, import_failure, import_file, installed_packs, operators_in, types_in
 from graphface.values.port_types import ANY, Atom, ListOf, PortType, port_type
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
 
-ENTRY_POINTS = "graphface.nodes"
 _MAX_LISTS = 8
 _BUILTIN_TYPES: dict[str, Any] = {"Any": object, "int": int, "float": float, "str": str, "bool": bool, "Path": Path}
-
-
-@dataclass(frozen=True)
-class Pack:
-    """What a distribution of operators offers.
-
-    Args:
-        name: for messages.
-        operators: operator family ("intrinsic" for `intrinsic.*`) to the modules that declare it, separated by spaces
-            where a family is spread over several.
-        types: name used in graph files to "module:attribute".
-        graphs: the package whose folder holds shipped graph files.
-        assets: "module:attribute" of tuples of `graphface.Asset`, the files that its operators fetch, separated by
-            spaces.
-        schemas: kind of file ("scene") to "module:attribute" of a pydantic model, or of a function that returns a JSON
-            Schema, for `graphface schema --kind`.
-    """
-
-    name: str
-    operators: Mapping[str, str]
-    types: Mapping[str, str] = field(default_factory=dict)
-    graphs: str = ""
-    assets: str = ""
-    schemas: Mapping[str, str] = field(default_factory=dict)
 
 
 class Registry:
@@ -62,7 +29,9 @@ class Registry:
     def __init__(self, packs: list[Pack] | None = None) -> None:
         self._packs = packs if packs is not None else []
         self._added: dict[str, Operator] = {}
+        self._added_types: dict[str, Any] = {}
         self._loaded: dict[str, dict[str, Operator]] = {}
+        self._broken: dict[str, str] = {}
 
     def add(self, function: object) -> None:
         """Register one `@node` function (a notebook's own, say); a later one of the same name replaces it."""
@@ -72,27 +41,41 @@ class Registry:
         self._added[operator.name] = operator
 
     def add_file(self, path: Path) -> list[str]:
-        """Execute a plug-in file and register every operator it declares; their names.
+        """Execute a plug-in file and register every operator and type it declares; the operators' names.
 
         Raises:
             PluginError: the file is missing, fails to import, or declares no operator.
         """
-        functions = [f for f in vars(_import_file(path)).values() if operator_of(f) is not None]
-        if not functions:
+        module = import_file(path)
+        operators = operators_in(module)
+        if not operators:
             raise PluginError(f"{path}: declares no operator; put @node on a function", path=path)
-        for function in functions:
-            self.add(function)
-        return sorted({operator.name for f in functions if (operator := operator_of(f)) is not None})
+        self._added |= operators
+        self._added_types |= types_in(module)
+        return sorted(operators)
 
     def operator(self, name: str) -> Operator:
-        """The operator called `name`.
+        """The operator called `name`, or that was called so before: its own name then is another.
 
         Raises:
             UnknownOperator: with the nearest names.
         """
-        found = self._added.get(name) or self._family(name.rpartition(".")[0]).get(name)
+        found = self._named(name) or self._formerly_named(name)
         if found is None:
-            raise UnknownOperator(name, self.names())
+            raise UnknownOperator(name, self.names(), self._why_unknown(name.rpartition(".")[0]))
+        return found
+
+    def operators(self) -> list[Operator]:
+        """Every operator, by name. Those that are declared wrongly are left out, with a warning."""
+        found = []
+        for name in self.names():
+            operator = self.operator(name)
+            try:
+                operator.check()
+            except DeclarationError as error:
+                warn(str(error))
+            else:
+                found.append(operator)
         return found
 
     def names(self) -> list[str]:
@@ -105,7 +88,7 @@ class Registry:
         """The other operators of the family whose ports agree: what `replace` may put in its place."""
         siblings = {**self._family(operator.family), **self._added}
         for name, other in sorted(siblings.items()):
-            if name != operator.name and other.family == operator.family and interchangeable(operator, other):
+            if name != operator.name and other.family == operator.family and _may_replace(operator, other):
                 yield other
 
     def type(self, text: str) -> PortType:
@@ -131,34 +114,43 @@ class Registry:
         return PortType(tuple(atoms), optional or atoms == [object])
 
     def type_names(self) -> list[str]:
-        return sorted({"Array", *_BUILTIN_TYPES, *(name for pack in self._packs for name in pack.types)})
+        packed = (name for pack in self._packs for name in pack.types)
+        return sorted({"Array", *_BUILTIN_TYPES, *self._added_types, *packed})
 
     def extended(self) -> Registry:
         """A registry with everything of this one, to which more can be added without changing this one."""
         other = Registry(self._packs)
-        other._added = dict(self._added)
-        other._loaded = self._loaded
+        other._added, other._added_types = dict(self._added), dict(self._added_types)
+        other._loaded, other._broken = self._loaded, self._broken
         return other
 
-    def graph_packages(self) -> list[str]:
-        """Packages whose folders hold shipped graph files."""
-        return [pack.graphs for pack in self._packs if pack.graphs]
+    def graph_folders(self) -> list[Path]:
+        """Folders of shipped graph files."""
+        folders = []
+        for package in (pack.graphs for pack in self._packs if pack.graphs):
+            try:
+                spec = importlib.util.find_spec(package)
+            except ImportError as error:
+                warn(f"the graphs of {package!r} are left out: {import_failure(error)}")
+                continue
+            if spec is not None and spec.submodule_search_locations:
+                folders.append(Path(spec.submodule_search_locations[0]))
+        return folders
 
     def assets(self) -> list[Asset]:
         """The files that operators of the packs fetch when first needed."""
-        found: list[Asset] = []
-        for pack in self._packs:
-            for where in pack.assets.split():
-                found += _attribute(where)
-        return found
+        named = [self._attribute(where) for pack in self._packs for where in pack.assets.split()]
+        return [asset for assets in named if assets is not None for asset in assets]
 
     def schemas(self) -> dict[str, Any]:
         """Kinds of files to what describes them: pydantic models, and functions that return a JSON Schema."""
-        return {kind: _attribute(where) for pack in self._packs for kind, where in pack.schemas.items()}
+        named = {kind: self._attribute(where) for pack in self._packs for kind, where in pack.schemas.items()}
+        return {kind: found for kind, found in named.items() if found is not None}
 
     def type_classes(self) -> list[Any]:
-        """What the packs' type names stand for."""
-        return [_attribute(where) for pack in self._packs for where in pack.types.values()]
+        """What the type names stand for."""
+        packed = [self._attribute(where) for pack in self._packs for where in pack.types.values()]
+        return [*self._added_types.values(), *(found for found in packed if found is not None)]
 
     def _named_type(self, name: str) -> PortType:
         if name == "Any":
@@ -169,18 +161,61 @@ class Registry:
             return port_type(np.ndarray)
         if name in _BUILTIN_TYPES:
             return port_type(_BUILTIN_TYPES[name])
+        if name in self._added_types:
+            return port_type(self._added_types[name])
         for pack in self._packs:
-            if name in pack.types:
-                return port_type(_attribute(pack.types[name]))
+            if name in pack.types and (found := self._attribute(pack.types[name])) is not None:
+                return port_type(found)
         raise UnknownType(name, self.type_names())
+
+    def _named(self, name: str) -> Operator | None:
+        return self._added.get(name) or self._family(name.rpartition(".")[0]).get(name)
+
+    def _formerly_named(self, name: str) -> Operator | None:
+        """The operator that had this name before, importing its family and that of the name."""
+        at_hand = [*self._added.values(), *self._family(name.rpartition(".")[0]).values()]
+        found = next((operator for operator in at_hand if name in operator.formerly), None)
+        moved = (pack.formerly[name] for pack in self._packs if name in pack.formerly)
+        return found or next((operator for new in moved if (operator := self._named(new)) is not None), None)
 
     def _family(self, family: str) -> dict[str, Operator]:
         """The operators of one family that packs declare, importing only the modules of that family."""
         if family not in self._loaded:
             modules = [m for pack in self._packs for m in pack.operators.get(family, "").split()]
-            declared = (operator_of(f) for m in modules for f in vars(importlib.import_module(m)).values())
-            self._loaded[family] = {op.name: op for op in declared if op is not None and op.family == family}
+            loaded = [module for name in modules if (module := self._module(name)) is not None]
+            declared = {name: operator for module in loaded for name, operator in operators_in(module).items()}
+            self._loaded[family] = {name: operator for name, operator in declared.items() if operator.family == family}
         return self._loaded[family]
+
+    def _module(self, name: str) -> ModuleType | None:
+        """A pack's module; None, with a warning when it is first asked for, where it cannot be imported."""
+        if name in self._broken:
+            return None
+        try:
+            return importlib.import_module(name)
+        except (Exception, SystemExit) as error:
+            self._broken[name] = import_failure(error)
+            warn(f"module {name!r} of an installed pack is left out: {self._broken[name]}")
+            return None
+
+    def _attribute(self, where: str) -> Any:
+        """What a pack's "module:attribute" names; None, with a warning, where there is no such thing."""
+        name, _, attribute = where.partition(":")
+        module = self._module(name)
+        if module is not None and not hasattr(module, attribute):
+            warn(f"{where!r} of an installed pack is left out: the module has no such name")
+        return getattr(module, attribute, None)
+
+    def _why_unknown(self, family: str) -> str:
+        """What is known about an operator's absence from its family."""
+        modules = [m for pack in self._packs for m in pack.operators.get(family, "").split()]
+        broken = [f"module {name!r} cannot be used: {self._broken[name]}" for name in modules if name in self._broken]
+        if broken or modules or any(operator.family == family for operator in self._added.values()) or not family:
+            return "; ".join(broken)
+        return (
+            f"no installed pack has operators of family {family!r}; "
+            "name its file with --plugin FILE or install its pack"
+        )
 
 
 def _alternatives(text: str) -> list[str]:
@@ -206,30 +241,15 @@ def interchangeable(one: Operator, other: Operator) -> bool:
     return shared_inputs and offers and one.output.accepts(other.output)
 
 
+def _may_replace(one: Operator, other: Operator) -> bool:
+    """As `interchangeable`; an operator that is declared wrongly replaces none."""
+    try:
+        return interchangeable(one, other)
+    except DeclarationError:
+        return False
+
+
 @cache
 def default_registry() -> Registry:
-    """The registry of everything installed."""
-    from importlib.metadata import entry_points
-
-    return Registry([point.load() for point in entry_points(group=ENTRY_POINTS)])
-
-
-def _attribute(where: str) -> Any:
-    """What "module:attribute" names."""
-    module, _, name = where.partition(":")
-    return getattr(importlib.import_module(module), name)
-
-
-def _import_file(path: Path) -> ModuleType:
-    name = f"graphface_plugin_{path.stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None or not os.path.isfile(path):
-        raise PluginError(f"{path}: no such plug-in file", path=path)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-    except Exception as error:
-        del sys.modules[name]
-        raise PluginError(f"{path}: {type(error).__name__}: {error}", path=path) from error
-    return module
+    """The registry of everything installed; a pack that cannot be used is left out, with a warning."""
+    return Registry(installed_packs())

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import Field, ValidationError
 
-from graphface import Cosmetic, Lazy, Registry, node
+from graphface import Cosmetic, Formerly, Lazy, Registry, node
 from graphface.node import Operator, operator_of
 
 
@@ -88,17 +88,21 @@ class TestDeclaration:
         """Optional ports without a default are given None."""
         assert operator.needs_none == ("mask", "extra")
 
-    def test_no_annotation(self) -> None:
-        """A function without annotations cannot be an operator; the message names what is missing."""
+    def test_renamed(self) -> None:
+        """Old names of ports and parameters are known, wherever in the annotation they stand."""
 
-        @node("x.y")
-        def bare(a, *, b: int = 1):  # type: ignore[no-untyped-def]
-            return a
+        @node("x.y", needs=needs)
+        def many(
+            a: Annotated[float, Formerly("first", "one")],
+            b: Lazy[Annotated[float, Formerly("second")]],
+            *,
+            c: Annotated[int, Formerly("third", "a")] | None = None,
+        ) -> int:
+            return 1
 
-        found = operator_of(bare)
+        found = operator_of(many)
         assert found is not None
-        with pytest.raises(TypeError, match=r"'x\.y'.*a, return"):
-            _ = found.inputs
+        assert found.renamed == {"first": "a", "one": "a", "second": "b", "third": "c"}  # `a` is in use
 
 
 class TestParameters:

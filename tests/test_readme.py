@@ -1,6 +1,9 @@
-"""What the README shows is true: its example of an operator is run as it stands."""
+"""What the README shows is true: its example of an operator is run as it stands, as a file and as a package."""
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -47,10 +50,33 @@ class TestOperator:
 
     def test_as_plugin(self, tmp_path: Path) -> None:
         """Saved to a file it is a plug-in, and the README's graph loads with it."""
-        (tmp_path / "smooth.py").write_text(example("python"), encoding="utf-8")
+        (tmp_path / "retouch.py").write_text(example("python"), encoding="utf-8")
         (tmp_path / "smooth.yaml").write_text(example("yaml"), encoding="utf-8")
-        graph = load(tmp_path / "smooth.yaml", plugins=[tmp_path / "smooth.py"])
+        graph = load(tmp_path / "smooth.yaml", plugins=[tmp_path / "retouch.py"])
         assert "image" in graph.outputs
         text = "graphface: 1\ninputs: {photo: Image}\nnodes: {n: {use: retouch.smooth, in: {photo: photo}}}\n"
-        alone = load(text, plugins=[tmp_path / "smooth.py"])
+        alone = load(text, plugins=[tmp_path / "retouch.py"])
         assert alone.run(["n"], photo=photo())["n"].pixels.shape == (24, 20, 3)
+
+
+class TestPackage:
+    def test_installed(self, tmp_path: Path) -> None:
+        """With the README's pyproject.toml its operator is found like an installed one."""
+        pytest.importorskip("setuptools", reason="builds the package's metadata")
+        (tmp_path / "retouch.py").write_text(example("python"), encoding="utf-8")
+        (tmp_path / "pyproject.toml").write_text(example("toml"), encoding="utf-8")
+        # What an editable install does, without pip: the metadata beside the module, and the folder on the path.
+        build = [sys.executable, "-c", "import setuptools; setuptools.setup()", "-q", "egg_info"]
+        subprocess.run(build, cwd=tmp_path, check=True, capture_output=True, timeout=60)
+        program = "from graphface.cli import main; main(['nodes', 'retouch.smooth'])"
+        paths = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])
+        done = subprocess.run(
+            [sys.executable, "-c", program],
+            cwd=tmp_path.parent,
+            env={**os.environ, "PYTHONPATH": paths},
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        assert (done.returncode, done.stderr) == (0, "")
+        assert "Blur a photo; sigma in pixels." in done.stdout

@@ -1,10 +1,11 @@
 """Operators are found by name, in packs, in plug-in files, and beside each other in families."""
 
+import sys
 from pathlib import Path
 
 import pytest
 
-from graphface import Registry, node
+from graphface import Pack, Registry, node
 from graphface.errors import PluginError, UnknownOperator, UnknownType
 
 PLUGIN = '''
@@ -52,6 +53,56 @@ class TestOperators:
 
         registry.extended().add(new)
         assert "toy.new" not in registry.names()
+
+
+class TestOldNames:
+    @pytest.fixture
+    def packed(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Registry:
+        """A pack of two families in modules of their own."""
+        for family in ("oldhair", "oldface", "oldother"):
+            (tmp_path / f"{family}.py").write_text(
+                "from graphface import node\n"
+                f"@node('{family}.new', formerly=('{family}.old', 'oldgone.{family}'))\n"
+                "def new(a: float) -> float:\n    return a\n"
+            )
+        monkeypatch.syspath_prepend(tmp_path)
+        families = {family: family for family in ("oldhair", "oldface", "oldother")}
+        return Registry([Pack("old", families, formerly={"oldgone.oldhair": "oldhair.new"})])
+
+    def test_same_family(self, packed: Registry) -> None:
+        """Within a family the operator's own word is enough."""
+        assert packed.operator("oldface.old").name == "oldface.new"
+
+    def test_moved(self, packed: Registry) -> None:
+        """An operator that moved to another family is found by its pack's word; no other family is imported."""
+        sys.modules.pop("oldother", None)
+        assert packed.operator("oldgone.oldhair").name == "oldhair.new"
+        assert "oldother" not in sys.modules
+
+    def test_taken_since(self, packed: Registry) -> None:
+        """An operator that has the name now wins over one that had it before."""
+
+        @node("oldgone.oldhair")
+        def mine(a: float) -> float:
+            return a
+
+        packed.add(mine)
+        assert packed.operator("oldgone.oldhair").function is mine
+
+    def test_added(self, registry: Registry) -> None:
+        """A function of one's own may have an old name too."""
+
+        @node("mine.new", formerly=("mine.old", "theirs.old"))
+        def mine(a: float) -> float:
+            return a
+
+        registry.add(mine)
+        assert registry.operator("mine.old").function is mine
+        assert registry.operator("theirs.old").function is mine
+
+    def test_not_listed(self, packed: Registry) -> None:
+        """Old names are no names to choose from."""
+        assert packed.names() == ["oldface.new", "oldhair.new", "oldother.new"]
 
 
 class TestAlternatives:

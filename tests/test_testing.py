@@ -31,7 +31,7 @@ def _needs(size: int) -> Needs:
     return {"extra": True if size > 1 else "one is enough"}
 
 
-@node("good.clip")
+@node("good.clip", needs=_needs)
 def clip(grid: Grid, extra: Lazy[Grid] = None, *, size: Annotated[int, Field(ge=1)] = 1) -> Grid:
     return np.nan_to_num(np.clip(grid, 0, size), posinf=size)
 

@@ -34,9 +34,9 @@ def metrics_for(declared: PortType, registry: Registry, asked: Sequence[str] = (
         UsageError: a metric that is not there or does not fit.
     """
     found = {}
-    for name in registry.names():
-        if name.startswith(f"{FAMILY}.") and _fits(operator := registry.operator(name), declared):
-            short = name.removeprefix(f"{FAMILY}.")
+    for operator in registry.operators():
+        if operator.family == FAMILY and _fits(operator, declared):
+            short = operator.name.removeprefix(f"{FAMILY}.")
             found[short] = Metric(short, operator)
     if not asked:
         return list(found.values())

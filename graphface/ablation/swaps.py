@@ -85,7 +85,7 @@ def _read(text: str, graph: Graph) -> Swap:
         raise UsageError(
             f"--swap {text!r}: no node {(name or subject)!r}{did_you_mean(nearest_names(name or subject, known))}"
         )
-    parameters = list(step.operator.parameters.model_fields)
+    parameters = [*step.operator.parameters.model_fields, *step.operator.renamed]
     if parameter not in parameters:
         near = did_you_mean(nearest_names(parameter, parameters))
         raise UsageError(f"--swap {text!r}: {step.operator.name} has no parameter {parameter!r}{near}")
@@ -102,8 +102,9 @@ def _step(name: str, graph: Graph) -> Step | None:
 
 
 def _operator(value: str, step: Step, graph: Graph, text: str) -> str:
-    """The full name of an operator that may take the node's place."""
-    fitting = [step.operator.name, *(o.name for o in graph.registry.alternatives(step.operator))]
+    """The full name, present or old, of an operator that may take the node's place."""
+    operators = [step.operator, *graph.registry.alternatives(step.operator)]
+    fitting = [name for operator in operators for name in (operator.name, *operator.formerly)]
     for name in (value, f"{step.operator.family}.{value}"):
         if name in fitting:
             return name

@@ -8,25 +8,29 @@ from __future__ import annotations
 
 import os
 import sys
-from importlib.metadata import entry_points
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
 import typer
+from typer.core import TyperGroup
 
 from graphface.cli import ablate, assets, cache, explain, new, nodes, plan, run, schema, show
+from graphface.packs import load_entry_point
 
 ENTRY_POINTS = "graphface.commands"
 _INTERRUPTED = 130
 
 
-def build() -> typer.Typer:
-    """The application with the commands of the engine and of every installed pack."""
+def build() -> TyperGroup:
+    """The command with the subcommands of the engine and of every installed pack."""
     app = typer.Typer(
         name="graphface",
         help="Edit photographs of faces with graphs of swappable operators.",
         no_args_is_help=True,
         add_completion=False,
-        pretty_exceptions_enable=False,
         rich_markup_mode="rich",
     )
     app.callback()(_version)
@@ -40,13 +44,33 @@ def build() -> typer.Typer:
     app.command("schema")(schema.schema)
     app.add_typer(assets.app, name="assets")
     app.add_typer(cache.app, name="cache")
+    group = typer.main.get_group(app)
     for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda p: p.name):
-        command = point.load()
-        if isinstance(command, typer.Typer):
-            app.add_typer(command, name=point.name)
-        else:
-            app.command(point.name)(command)
-    return app
+        _add_command_of_pack(group, point)
+    return group
+
+
+def _add_command_of_pack(group: TyperGroup, point: EntryPoint) -> None:
+    """Add the command that an entry point names: a `typer.Typer`, or a function.
+
+    One that cannot be used is left out, with a warning: somebody else's mistake must not keep the others from working.
+    """
+
+    def read(named: Any) -> Any:
+        if point.name in group.commands:
+            raise ValueError("there is a command of this name already")
+        if isinstance(named, typer.Typer):
+            return typer.main.get_group(named)
+        if not callable(named):
+            raise TypeError(f"it is a {type(named).__name__}, no command")
+        app = typer.Typer(add_completion=False, rich_markup_mode="rich")
+        app.command(point.name)(named)
+        return typer.main.get_command(app)
+
+    command = load_entry_point(point, read)
+    if command is not None:
+        command.name = point.name
+        group.add_command(command)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -61,7 +85,8 @@ def _guarded(arguments: list[str] | None) -> int:
     from graphface.errors import GraphfaceError, UsageError
 
     try:
-        result = build()(arguments, standalone_mode=False)
+        with _spoken_warnings():
+            result = build()(arguments, standalone_mode=False)
         if result == _INTERRUPTED:  # some versions of typer turn the interrupt into this exit code
             raise KeyboardInterrupt
     except GraphfaceError as error:
@@ -98,6 +123,25 @@ def _message(error: Exception) -> str:
     return "\n".join(told)
 
 
+@contextmanager
+def _spoken_warnings() -> Iterator[None]:
+    """Every `GraphfaceWarning` outside a node as one line on standard error; other warnings stay as they are."""
+    from graphface.fallback import GraphfaceWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("default", GraphfaceWarning)
+        otherwise = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+            if issubclass(category, GraphfaceWarning):
+                print(f"warning: {message}", file=sys.stderr)
+            else:
+                otherwise(message, category, *where, **more)
+
+        warnings.showwarning = show
+        yield
+
+
 def _say(message: str) -> None:
     print(f"error: {message}", file=sys.stderr)
 
@@ -116,9 +160,3 @@ def _version(
     ),
 ) -> None:
     """An option of the program itself, answered before a command is looked for."""
-
-
-def __getattr__(name: str) -> Any:
-    if name == "app":
-        return build()
-    raise AttributeError(name)

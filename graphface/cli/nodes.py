@@ -15,6 +15,7 @@ def nodes(
     plugins: Plugins = [],  # noqa: B006
 ) -> None:
     """List the operators, or show one: its ports, parameters, documentation and what may take its place."""
+    from graphface.fallback import warn
     from graphface.registry import default_registry
     from graphface.report.terminal import print_operator, print_operators
 
@@ -23,6 +24,8 @@ def nodes(
         registry.add_file(Path(plugin))
     if name:
         operator = registry.operator(name)
+        if operator.name != name:
+            warn(f"operator {name!r} is now called {operator.name!r}")
         print_operator(operator, [other.name for other in registry.alternatives(operator)])
     else:
-        print_operators([registry.operator(n) for n in registry.names()])
+        print_operators(registry.operators())

@@ -230,11 +230,11 @@ class _Composer:
                 if flat is None or node.removed:
                     continue
                 for port, wire in node.wires.items():
-                    if wire.names is not None:
-                        found = references.wire(scope, wire)
-                        flat.wires[port] = (
-                            FlatWire(*found, wire.place) if found else FlatWire((), False, wire.place, True)
-                        )
+                    if wire.names is None:
+                        flat.wires[port] = FlatWire((), False, wire.place, unplugged=True)
+                        continue
+                    found = references.wire(scope, wire)
+                    flat.wires[port] = FlatWire(*found, wire.place) if found else FlatWire((), False, wire.place, True)
         outputs = {}
         for name, setting in top.document.outputs.items():
             found = references.resolve(top, setting.value, setting.place)

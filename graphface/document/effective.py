@@ -18,7 +18,6 @@ from typing import Any
 
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
-from graphface.document.graph_files import shipped_folders
 from graphface.document.scalars import scalar
 from graphface.node import Operator
 from graphface.place import Place
@@ -99,7 +98,7 @@ def _default(composition: Composition, registry: Registry, declared: str, defaul
     file = (named_in.parent / value).resolve()
     if named_in.parent.resolve() == top.parent.resolve() or not file.is_file():
         return value
-    roots = [folder.resolve() for folder in (top.parent, *shipped_folders(registry))]
+    roots = [folder.resolve() for folder in (top.parent, *registry.graph_folders())]
     return next((file.relative_to(root).as_posix() for root in roots if file.is_relative_to(root)), value)
 
 

@@ -17,12 +17,16 @@ from graphface.place import Place, Source
 
 @dataclass(frozen=True)
 class FlatWire:
-    """What is plugged into a port; `broken` where a name in it means nothing, which was told already."""
+    """What is plugged into a port; `broken` where a name in it means nothing, which was told already.
+
+    `unplugged` where the file says null: it takes away what is plugged in under an old name of the port.
+    """
 
     targets: tuple[Target, ...]
     is_list: bool
     place: Place | None
     broken: bool = False
+    unplugged: bool = False
 
 
 @dataclass

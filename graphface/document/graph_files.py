@@ -6,14 +6,12 @@ packs ship: a graph from a stranger cannot reach into the rest of the disk.
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Sequence
 from pathlib import Path
 
 from graphface.document.document import Document, read_document
 from graphface.errors import DocumentError, Problem, UnreadableFile, did_you_mean, nearest_names
 from graphface.place import Place
-from graphface.registry import Registry
 
 GRAPH_SUFFIXES = (".yaml", ".yml")
 
@@ -35,16 +33,6 @@ def find_graph(name: str, shipped: Sequence[Path]) -> Path:
     hint = f" (shipped graphs: {', '.join(known)})" if known else ""
     near = did_you_mean(nearest_names(path.stem, known))
     raise UnreadableFile(name, f"no such graph file{near}{hint}")
-
-
-def shipped_folders(registry: Registry) -> list[Path]:
-    """The folders of graph files that installed packs offer."""
-    folders = []
-    for package in registry.graph_packages():
-        spec = importlib.util.find_spec(package)
-        if spec is not None and spec.submodule_search_locations:
-            folders.append(Path(spec.submodule_search_locations[0]))
-    return folders
 
 
 def shipped_graphs(shipped: Sequence[Path]) -> list[str]:

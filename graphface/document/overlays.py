@@ -10,8 +10,11 @@ import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import TypeVar
 
 from graphface.document.document import Document, NodeEntry
+
+T = TypeVar("T")
 
 
 class Rank(IntEnum):
@@ -75,7 +78,11 @@ def copied(entry: NodeEntry) -> NodeEntry:
 
 
 def lay_over(node: NodeEntry, overlay: NodeEntry) -> None:
-    """Lay a partial node over a node; one removed before comes back only where the overlay says what it is."""
+    """Lay a partial node over a node; one removed before comes back only where the overlay says what it is.
+
+    What the overlay states comes last among the node's wires and settings: of an old and a new name of the same port or
+    parameter the last one applies (`graphface.document.present_names`).
+    """
     if overlay.removed:
         node.removed = True
         return
@@ -84,6 +91,11 @@ def lay_over(node: NodeEntry, overlay: NodeEntry) -> None:
         if node.use is not None and overlay.use.value != node.use.value:
             node.carried |= {*node.wires, *node.settings}
         node.use = overlay.use
-    node.wires |= overlay.wires
-    node.settings |= overlay.settings
+    node.wires = _last(node.wires, overlay.wires)
+    node.settings = _last(node.settings, overlay.settings)
     node.carried -= {*overlay.wires, *overlay.settings}
+
+
+def _last(below: dict[str, T], above: dict[str, T]) -> dict[str, T]:
+    """Both, those of `above` winning and standing at the end."""
+    return {name: value for name, value in below.items() if name not in above} | above

@@ -46,8 +46,7 @@ def schema_of(kind: str, registry: Registry) -> dict[str, Any]:
 
 def graph_schema(registry: Registry) -> dict[str, Any]:
     """The schema (draft 2020-12) of a graph file that uses the registry's operators and types."""
-    operators = [registry.operator(name) for name in registry.names()]
-    node = _node_schema(operators)
+    node = _node_schema(registry.operators())
     return {
         "$schema": _DRAFT,
         "title": "graphface graph",
@@ -117,6 +116,7 @@ def _node_schema(operators: Iterable[Operator]) -> dict[str, Any]:
     """One node; null removes it."""
     known = list(operators)
     names = [{"const": op.name, "description": op.doc.partition("\n")[0]} for op in known]
+    names += [{"const": old, **_deprecated(op.name)} for op in known for old in op.formerly]
     return {
         "type": ["object", "null"],
         "additionalProperties": False,
@@ -138,14 +138,25 @@ def _operator_rule(operator: Operator) -> dict[str, Any]:
         port.name: {**wire, "description": f"{port.type}{' (lazy)' if port.lazy else ''}"}
         for port in operator.inputs.values()
     }
+    settings = _inlined(parameters)
+    for old, present in operator.renamed.items():
+        for properties in (ports, settings):
+            if present in properties:
+                properties[old] = {**properties[present], **_deprecated(present)}
     rule: dict[str, Any] = {
         "in": {"type": ["object", "null"], "additionalProperties": False, "properties": ports},
-        "with": {"type": ["object", "null"], "additionalProperties": False, "properties": _inlined(parameters)},
+        "with": {"type": ["object", "null"], "additionalProperties": False, "properties": settings},
     }
+    names = {"enum": [operator.name, *operator.formerly]} if operator.formerly else {"const": operator.name}
     return {
-        "if": {"required": ["use"], "properties": {"use": {"const": operator.name}}},
+        "if": {"required": ["use"], "properties": {"use": names}},
         "then": {"description": operator.doc, "properties": rule},
     }
+
+
+def _deprecated(present: str) -> dict[str, Any]:
+    """What marks an old name, for editors to strike it through."""
+    return {"deprecated": True, "description": f"Now called {present}."}
 
 
 def _lenient() -> type[Any]:

@@ -11,8 +11,9 @@ from collections.abc import Mapping, MutableMapping
 from typing import Any, Literal
 
 from graphface import fallback
+from graphface.code_line import declaration_line, own_line
 from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError
-from graphface.evaluate.observe import Observer, hooks
+from graphface.evaluate.observe import Hooks
 from graphface.graph.demand import take
 from graphface.graph.keys import Declined
 from graphface.graph.request import Request
@@ -40,7 +41,7 @@ class Caller:
         values: Mapping[bytes, Any],
         guard: Guard,
         finite: MutableMapping[int, Any],
-        observers: tuple[Observer, ...],
+        hooks: Hooks,
     ) -> None:
         self._request = request
         self._graph = request.graph
@@ -48,8 +49,8 @@ class Caller:
         self._keys = request.keys.by_slot
         self._guard = guard
         self._finite = finite
-        self._on_start = hooks(observers, "node_started")
-        self._observed = bool(observers)
+        self._on_start = hooks.node_started
+        self._observed = hooks.any
 
     def evaluate(self, slot: int, step: Step | None, declined: Declined) -> Outcome:
         """Call one step or load one input. Raises nothing: a worker that ended silently would leave the run waiting."""
@@ -83,7 +84,9 @@ class Caller:
         """A failure with everything that helps to find its cause."""
         reason = str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"
         shown = {port: describe(value) for port, value in arguments.items()}
-        failure = NodeError(step.name, step.operator.name, step.place, reason, shown, self._files_behind(step))
+        function = step.operator.function
+        code = declaration_line(function) if error.__traceback__ is None else own_line(error, function)
+        failure = NodeError(step.name, step.operator.name, step.place, reason, shown, self._files_behind(step), code)
         failure.__cause__ = error
         return failure
 

@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary
 from graphface.cache.disk import DiskTier
 from graphface.cache.memory import MISSING, MemoryTier
 from graphface.evaluate.calling import Caller, Guard
-from graphface.evaluate.observe import Observer
+from graphface.evaluate.observe import Hooks, Observer
 from graphface.evaluate.run import Run
 from graphface.graph.keys import Keys
 from graphface.graph.request import Request
@@ -85,12 +85,12 @@ class Evaluator:
             KeyboardInterrupt: between nodes; what was computed stays memoized.
         """
         self._last_keys[request.graph] = request.keys
-        listening = (*self.observers, *observers)
+        hooks = Hooks((*self.observers, *observers))
 
         def caller(values: dict[bytes, Any]) -> Caller:
-            return Caller(request, values, self.guard, self._finite, listening)
+            return Caller(request, values, self.guard, self._finite, hooks)
 
-        values, records = Run(request, self, caller, listening, self.threads, self.in_flight).go()
+        values, records = Run(request, self, caller, hooks, self.threads, self.in_flight).go()
         return Result(values, records)
 
     def last_keys(self, graph: WiredGraph) -> Keys | None:

@@ -1,21 +1,30 @@
 """Hooks into a run: progress bars, traces, profilers and debuggers all hang here.
 
-An observer overrides the hooks it wants. The evaluator collects only overridden ones, so that a hook nobody uses costs
-one test of an empty tuple.
+An observer overrides the hooks it wants. A run collects only overridden ones (`Hooks`), so that a hook nobody uses
+costs one test of an empty tuple.
 """
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import Any
 
+from graphface.code_line import own_line
+from graphface.fallback import collector, warn
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
 from graphface.record import Record
 
+Hook = Callable[..., None]
+
 
 class Observer:
-    """Base of observers; every hook does nothing. Hooks run on the thread that called `run`, except `node_started`."""
+    """Base of observers; every hook does nothing. Hooks run on the thread that called `run`, except `node_started`.
+
+    One that raises is switched off for the rest of the run; see `Hooks`.
+    """
 
     def run_started(self, request: Request) -> None:
         """A run begins; `request.steps()` are the nodes that may run or be looked up."""
@@ -30,10 +39,58 @@ class Observer:
         """The run is over, also where it failed or was interrupted."""
 
 
-Hook = Callable[..., None]
+class Hooks:
+    """The hooks of one run: for each kind those that an observer overrides, ready to be called.
+
+    An observer that raises is switched off for the rest of this run, with a warning: what it watches goes on.
+    KeyboardInterrupt passes, so that a hook can end the run.
+
+        hooks = Hooks(evaluator.observers)
+        for hook in hooks.node_finished:
+            hook(record, step, value)
+    """
+
+    def __init__(self, observers: Iterable[Observer]) -> None:
+        watched = [_Watched(observer) for observer in observers]
+        self.run_started = _overridden(watched, "run_started")
+        self.node_started = _overridden(watched, "node_started")
+        self.node_finished = _overridden(watched, "node_finished")
+        self.run_finished = _overridden(watched, "run_finished")
+        self.any = bool(watched)
 
 
-def hooks(observers: Iterable[Observer], name: str) -> tuple[Hook, ...]:
-    """The bound methods of those observers that override a hook."""
+class _Watched:
+    """One observer in one run, until it breaks."""
+
+    def __init__(self, observer: Observer) -> None:
+        self.observer = observer
+        self._broken = False
+        self._lock = threading.Lock()
+
+    def call(self, hook: Hook, *arguments: Any) -> None:
+        if self._broken:
+            return
+        try:
+            hook(*arguments)
+        except Exception as error:
+            with self._lock:
+                first, self._broken = not self._broken, True
+            if first:
+                _warn_of(hook, error)
+
+
+def _overridden(watched: Iterable[_Watched], name: str) -> tuple[Hook, ...]:
     base = getattr(Observer, name)
-    return tuple(getattr(o, name) for o in observers if getattr(type(o), name) is not base)
+    return tuple(partial(w.call, getattr(w.observer, name)) for w in watched if getattr(type(w.observer), name) != base)
+
+
+def _warn_of(hook: Hook, error: Exception) -> None:
+    """Tell of a broken observer, as something that is no node's fault, even where a node is being called."""
+    line = own_line(error, hook)
+    where = f" ({line.file}:{line.line})" if line is not None else ""
+    token = collector.set(None)
+    try:
+        name = hook.__qualname__
+        warn(f"observer switched off for the rest of the run: {name} raised {type(error).__name__}: {error}{where}")
+    finally:
+        collector.reset(token)

@@ -25,7 +25,7 @@ from typing import Any, Protocol
 from graphface.cache.memory import MISSING
 from graphface.errors import NodeError, RunFailed
 from graphface.evaluate.calling import Caller, Outcome
-from graphface.evaluate.observe import Observer, hooks
+from graphface.evaluate.observe import Hooks
 from graphface.graph.demand import declined_with, demanded, take
 from graphface.graph.keys import Declined
 from graphface.graph.request import Request
@@ -71,7 +71,7 @@ class Run:
         request: Request,
         tiers: Tiers,
         call: Callable[[dict[bytes, Any]], Caller],
-        observers: tuple[Observer, ...],
+        hooks: Hooks,
         threads: int,
         in_flight: int,
     ) -> None:
@@ -79,8 +79,8 @@ class Run:
         self._tiers = tiers
         self._threads = threads
         self._in_flight = in_flight
-        self._observers = observers
-        self._on_finish = hooks(observers, "node_finished")
+        self._hooks = hooks
+        self._on_finish = hooks.node_finished
         self._names = request.graph.names
         self._keys = request.keys.by_slot
         self._kept = {self._keys[ref.slot] for ref in request.targets.values()}
@@ -101,7 +101,7 @@ class Run:
         Raises:
             RunFailed: a node failed; it has the outputs that did not need it.
         """
-        for hook in hooks(self._observers, "run_started"):
+        for hook in self._hooks.run_started:
             hook(self._request)
         try:
             for ref in self._request.targets.values():
@@ -112,7 +112,7 @@ class Run:
             else:
                 self._loop_threads()
         finally:
-            for hook in hooks(self._observers, "run_finished"):
+            for hook in self._hooks.run_finished:
                 hook(self._records)
         values = {}
         for name, ref in self._request.targets.items():

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from graphface.document.effective import effective
 from graphface.document.flat import Composition
-from graphface.document.graph_files import shipped_folders
 from graphface.document.provenance import KEY as PROVENANCE
 from graphface.document.references import References
 from graphface.errors import InputError, nearest_names
@@ -130,7 +129,7 @@ class WiredGraph:
     @cached_property
     def _default_roots(self) -> list[Path]:
         own = self.composition.path.resolve().parent if self.composition.path is not None else Path.cwd()
-        return [own, *shipped_folders(self.registry)]
+        return [own, *self.registry.graph_folders()]
 
     def _target(self, name: str) -> Ref:
         if name in self.outputs:

@@ -16,7 +16,7 @@ from pydantic import BaseModel, ValidationError
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
 from graphface.document.references import Target
-from graphface.errors import DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
+from graphface.errors import DeclarationError, DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
 from graphface.graph.structure import Argument, GraphInput, Ref, Step, Structure, field_type
 from graphface.node import InputPort, Operator
 from graphface.place import Place
@@ -39,6 +39,7 @@ class _Wirer:
         self._registry = registry
         self._problems: list[Problem] = list(composition.problems)
         self._operators: dict[str, Operator | None] = {}
+        self._unusable: dict[str, str] = {}
         self._bare: dict[str, dict[str, Any]] = {}
 
     def run(self) -> Structure:
@@ -76,15 +77,19 @@ class _Wirer:
 
     def _operator(self, node: FlatNode) -> Operator | None:
         name = node.use.value
+        nearest: list[str] = []
         if name not in self._operators:
+            self._operators[name] = None
             try:
-                self._operators[name] = self._registry.operator(name)
+                operator = self._registry.operator(name)
+                operator.check()
+                self._operators[name] = operator
             except UnknownOperator as error:
-                self._operators[name] = None
-                self._problem(f"unknown operator {name!r}", node.use.place, error.nearest)
-                return None
-        elif self._operators[name] is None:
-            self._problem(f"unknown operator {name!r}", node.use.place)
+                self._unusable[name], nearest = error.reason, error.nearest
+            except DeclarationError as error:
+                self._unusable[name] = str(error)
+        if name in self._unusable:
+            self._problem(self._unusable[name], node.use.place, nearest)
         return self._operators[name]
 
     # --- order ------------------------------------------------------------------------------------
@@ -170,7 +175,7 @@ class _Wirer:
                 hint = " (it may be None; the port is not optional)" if source.optional and not wanted.optional else ""
                 self._problem(
                     f"{target} gives {source}, but port {port.name!r} of node {node.name!r} "
-                    f"({self._graph.nodes[node.name].use.value}) takes {wanted}{hint}",
+                    f"({node.use.value}) takes {wanted}{hint}",
                     flat.place,
                 )
                 return None

@@ -114,6 +114,9 @@ def print_operator(operator: Operator, alternatives: Sequence[str]) -> None:
             fields.add_row(f".{name}", escape(str(declared)))
         console.print(fields)
     _print_parameters(console, operator)
+    old = [*operator.formerly, *(f"{old} (now {present})" for old, present in operator.renamed.items())]
+    if old:
+        console.print(f"old names: {', '.join(old)}", highlight=False)
     if alternatives:
         console.print(f"may be replaced by: {', '.join(alternatives)}", highlight=False)
 

@@ -11,9 +11,8 @@ import pytest
 from pydantic import BaseModel, Field
 from toys import toy_registry
 
-from graphface import DocumentError, Registry, load, node
+from graphface import DocumentError, Formerly, Registry, load, node
 from graphface.cli import main
-from graphface.document.graph_files import shipped_folders
 from graphface.document.located import parse, plain
 from graphface.document.schema import graph_schema
 from graphface.place import Source
@@ -53,7 +52,8 @@ class TestItself:
 
     def test_documented(self, installed: dict[str, Any]) -> None:
         """Editors can show what an operator does and what each of its ports takes."""
-        rules = {rule["if"]["properties"]["use"]["const"]: rule["then"] for rule in installed["$defs"]["node"]["allOf"]}
+        uses = [(rule["if"]["properties"]["use"], rule["then"]) for rule in installed["$defs"]["node"]["allOf"]]
+        rules = {use["const"] if "const" in use else use["enum"][0]: then for use, then in uses}
         assert all(rule["description"] for rule in rules.values())
         assert rules["sh.fit"]["properties"]["in"]["properties"]["normals"]["description"] == "Normals"
 
@@ -91,10 +91,29 @@ class TestItself:
         assert problems(schema, text) == []
         assert problems(schema, text.replace("hard", "hart")) != []
 
+    def test_old_names(self) -> None:
+        """Old names of operators, ports and parameters are allowed, and marked as deprecated."""
+
+        def mine(a: Annotated[float, Formerly("x")], *, b: Annotated[int, Field(ge=0), Formerly("y")] = 1) -> float:
+            return a
+
+        registry = Registry()
+        registry.add(node("mine.new", formerly=("mine.old",))(mine))
+        schema = graph_schema(registry)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        text = "graphface: 1\ninputs: {p: float}\nnodes: {n: {use: mine.old, in: {x: p}, with: {y: 1}}}\n"
+        assert problems(schema, text) == []
+        assert problems(schema, text.replace("y: 1", "y: -1")) == ["$.nodes.n.with.y"]
+        (rule,) = schema["$defs"]["node"]["allOf"]
+        old = rule["then"]["properties"]["with"]["properties"]["y"]
+        assert (old["deprecated"], old["description"]) == (True, "Now called b.")
+        marked = [use for use in schema["$defs"]["node"]["properties"]["use"]["anyOf"] if use.get("deprecated")]
+        assert [use["const"] for use in marked] == ["mine.old"]
+
 
 class TestAccepts:
     @pytest.mark.parametrize(
-        "path", [p for f in shipped_folders(default_registry()) for p in sorted(f.glob("*.yaml"))], ids=lambda p: p.name
+        "path", [p for f in default_registry().graph_folders() for p in sorted(f.glob("*.yaml"))], ids=lambda p: p.name
     )
     def test_shipped(self, installed: dict[str, Any], path: Path) -> None:
         """Every shipped graph."""

@@ -363,17 +363,6 @@ class TestFailures:
             quick.evaluator.run(graph.request(bound, ["s"]))
         assert caught.value.name == "x"
 
-    def test_failing_observer(self, quick: Lab) -> None:
-        """An observer that raises ends the run with its own exception."""
-
-        class Faulty(Observer):
-            def node_started(self, name, step):  # type: ignore[no-untyped-def]
-                raise ZeroDivisionError
-
-        quick.evaluator.observers = (Faulty(),)
-        with pytest.raises(ZeroDivisionError):
-            quick.run(quick.load(DIAMOND), ["join"])
-
     def test_field_of_nothing(self, quick: Lab) -> None:
         """A field of a value that may be None may itself be None."""
         nodes = """

@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 
 from graphface import load
-from graphface.document.graph_files import shipped_folders
 from graphface.registry import default_registry
 
-FOLDER = next(f for f in shipped_folders(default_registry()) if (f / "ablations").is_dir()) / "ablations"
+FOLDER = next(f for f in default_registry().graph_folders() if (f / "ablations").is_dir()) / "ablations"
 VARIANTS = [(path, name) for path in sorted(FOLDER.glob("*.yaml")) for name in load(path).composition.variants]
 
 

@@ -232,7 +232,7 @@ class TestReasons:
         again = lab.before(graph, x=1.0)
         assert str(again["join"].reason) == "it failed when it last ran"
         assert str(again["end"].reason) == "first seen"
-        assert again["left"].reason == "nothing changed"
+        assert str(again["left"].reason) == "nothing changed"
 
 
 class TestLazyPorts:
