@@ -112,4 +112,5 @@ pack = Pack(
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
     },
     files={name: f"graphface.nodes.io.files:{constant}" for name, constant in _FILES.items()},
+    schemas={"scene": "graphface.nodes.types:Scene"},
 )
