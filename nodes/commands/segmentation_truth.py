@@ -25,7 +25,7 @@ from graphface.nodes.masks.features import pixel_features
 from graphface.nodes.masks.geometric import geometric
 from graphface.nodes.masks.hair import hair
 from graphface.nodes.masks.label_weights import LabelWeights
-from graphface.nodes.masks.likeness import Model
+from graphface.nodes.masks.density import Model
 from graphface.nodes.masks.network import network
 from graphface.nodes.matting.closed_form import closed_form
 from graphface.nodes.matting.guided import guided
