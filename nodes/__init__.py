@@ -24,8 +24,8 @@ _MODULES = {
     "sh": "fit render rotate from_environment to_environment ball",
     "detail": "additive multiplicative none split",
     "detail.edit": "bands wrinkles shine",
-    "render": "samples shade shadows surroundings spread background head skin specular hair_shine response composite "
-    "relit",
+    "render": "samples shade shadow_maps surroundings spread background head skin specular hair_shine response "
+    "composite relit",
     "light": "scene panorama",
     "scatter": "none gaussian screen_space",
     "transfer": "mask paint detail recolored",

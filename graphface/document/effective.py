@@ -19,7 +19,6 @@ from typing import Any
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
 from graphface.document.located import scalar
-from graphface.document.present_names import with_present_names
 from graphface.node import Operator
 from graphface.place import Place
 from graphface.registry import Registry
@@ -65,10 +64,9 @@ def _lines(composition: Composition, registry: Registry, origins: bool) -> Itera
 
 
 def _node_lines(node: FlatNode, operator: Operator, noted: Noted) -> Iterator[str]:
-    node = with_present_names(node, operator, {})
     yield f"  {node.name}:"
     yield noted(f"    use: {_word(operator.name)}", node.use.place)
-    wires = {port: wire for port, wire in node.wires.items() if port in operator.inputs and not wire.unplugged}
+    wires = {port: wire for port, wire in node.wires.items() if port in operator.inputs}
     if wires:
         yield f"    in: {{{', '.join(f'{port}: {_wire(wire)}' for port, wire in wires.items())}}}"
     settings = {name: s for name, s in node.settings.items() if name in operator.parameters.model_fields}

@@ -13,6 +13,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
 
 
@@ -36,19 +37,14 @@ def poisson(
         reach: distance over which the edge's influence falls to 1/e, in inter-ocular distances.
         resolution: pixels per inter-ocular distance of the copy. sweeps: of Jacobi's method, over-relaxed.
     """
-    import cv2
-
     if not (mask > 0).any():
         return base
     change = mask[..., None] * (layer.pixels - base.pixels)
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    unit = max(landmarks.interocular * scale, 1e-3)
-    size = (max(1, round(mask.shape[1] * scale)), max(1, round(mask.shape[0] * scale)))
-    small = np.asarray(cv2.resize(change, size, interpolation=cv2.INTER_AREA), np.float32)
-    weight = np.asarray(cv2.resize(mask, size, interpolation=cv2.INTER_AREA), np.float32)
-    correction = _screened(-small, weight >= 0.5 * float(weight.max()), 1 / max(reach * unit, 0.5) ** 2, sweeps)
-    full = np.asarray(cv2.resize(correction, mask.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
-    return base.with_pixels(base.pixels + change + mask[..., None] * full)
+    copy = face_scale(landmarks, mask.shape, resolution)
+    weight = copy.down(mask)
+    pull = 1 / max(reach * copy.interocular, 0.5) ** 2
+    correction = _screened(-copy.down(change), weight >= 0.5 * float(weight.max()), pull, sweeps)
+    return base.with_pixels(base.pixels + change + mask[..., None] * copy.up(correction))
 
 
 def _screened(

@@ -117,7 +117,7 @@ def _runs(graph: Graph, evaluator: Evaluator, memory: _Representations) -> Metho
 
 def _pasted(evaluator: Evaluator) -> Method:
     """The reference through the meshes, pasted as it is."""
-    from graphface.nodes.resample import fetched
+    from graphface.nodes.resample import resampled
 
     graph = load("makeup", replace={"pair/flow": "flow.none"}, set={"pair/meshes.hidden": "input"})
     asked = ["pair/meshes", "pair.working", "pair.reference_working"]
@@ -125,7 +125,7 @@ def _pasted(evaluator: Evaluator) -> Method:
     def paste(photo: Path, reference: Path) -> tuple[Image, float]:
         result = graph.run(asked, evaluator=evaluator, photo=photo, reference=reference)
         base: Image = result["pair.working"]
-        warped = fetched(result["pair.reference_working"].pixels, result["pair/meshes"])
+        warped = resampled(result["pair.reference_working"].pixels, result["pair/meshes"])
         inside = result["pair/meshes"].inside[..., None]
         return base.with_pixels(base.pixels + inside * (warped - base.pixels)), 0.0
 

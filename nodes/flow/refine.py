@@ -19,7 +19,8 @@ from pydantic import Field
 
 from graphface import warn
 from graphface.nodes.color import channel_mean
-from graphface.nodes.resample import fetched
+from graphface.nodes.face_scale import face_scale
+from graphface.nodes.resample import resampled
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Correspondence, FloatArray, Image, Landmarks
 
@@ -49,7 +50,11 @@ _WORTH = 0.02
 
 
 _RESAMPLED = 0.02
-"""Mean square difference that two copies of one picture have once one of them was fetched: no reason to move."""
+"""Mean square difference that two copies of one picture have once one of them was resampled: no reason to move."""
+
+
+_LEAST_SIDE = 8
+"""Of the copies that are compared, pixels: smaller pictures have no flow."""
 
 
 _PRIOR_WEIGHT = 0.15
@@ -91,12 +96,12 @@ def refined(
             warn(f"flow: eyes are {unit:.1f} pixels apart, too few to match anything; the meshes alone decide")
         return correspondence
     direct = replace(correspondence, mirrored=None, mirrored_valid=None)
-    places = _refined_places(photo, reference, direct, window, unit, flow, settings)
+    places = _refined_places(photo, reference, direct, window, landmarks, flow, settings)
     mirrored, valid = correspondence.mirrored, correspondence.mirrored_valid
     if mirrored is not None and valid is not None and (valid > 0.5).mean() > _WORTH * correspondence.inside.mean():
         other = replace(direct, places=mirrored, valid=valid)
         window = _face_window(np.asarray(valid > 0.5, np.float32), margin=round(0.1 * unit)) or window
-        mirrored = _refined_places(photo, reference, other, window, unit, flow, settings)
+        mirrored = _refined_places(photo, reference, other, window, landmarks, flow, settings)
     return replace(correspondence, places=places, mirrored=mirrored)
 
 
@@ -105,27 +110,24 @@ def _refined_places(
     reference: Image,
     correspondence: Correspondence,
     window: tuple[slice, slice],
-    unit: float,
+    landmarks: Landmarks,
     flow: Flow,
     settings: Refinement,
 ) -> FloatArray:
-    """The places H x W x 2, moved within the window; `unit` is the inter-ocular distance in pixels."""
-    import cv2
-
+    """The places H x W x 2, moved within the window."""
     rows, columns = window
-    scale = min(1.0, settings.resolution / unit)
-    height, width = (max(8, round((s.stop - s.start) * scale)) for s in window)
+    size = rows.stop - rows.start, columns.stop - columns.start
+    copy = face_scale(landmarks, size, settings.resolution, least=_LEAST_SIDE)
+    unit = copy.interocular
 
     def small(values: FloatArray) -> FloatArray:
-        way = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
-        return np.asarray(cv2.resize(values[rows, columns], (width, height), interpolation=way), np.float32)
+        return copy.down(values[rows, columns])
 
-    unit = unit * scale
     inside = small(correspondence.inside * (correspondence.valid > 0.5))
     inside *= inside > 0.999  # beside the mesh there are no values to compare
     mine = _log_intensity(small(photo.pixels))
     reduced = replace(correspondence, places=small(correspondence.places), inside=inside, valid=inside)
-    theirs = np.where(inside > 0.999, _log_intensity(fetched(reference.pixels, reduced)), mine)
+    theirs = np.where(inside > 0.999, _log_intensity(resampled(reference.pixels, reduced)), mine)
     mine, theirs = (_equalized(values, settings.window * unit) for values in (mine, theirs))
     levels = [np.clip(128 + _CONTRAST * v, 0, 255).astype(np.uint8) for v in (mine, theirs)]
     forth = np.asarray(flow(levels[0], levels[1]), np.float32)
@@ -138,9 +140,8 @@ def _refined_places(
     trust = np.nan_to_num(trust)
     field = _smooth(np.nan_to_num(forth) * trust[..., None], settings.smoothing * unit)
     field /= (_smooth(trust, settings.smoothing * unit) + _PRIOR_WEIGHT)[..., None]
-    steps = np.array([(s.stop - s.start) / n for s, n in ((columns, width), (rows, height))], np.float32)
-    full = (columns.stop - columns.start, rows.stop - rows.start)
-    shift = np.asarray(cv2.resize(field * steps, full, interpolation=cv2.INTER_LINEAR), np.float32)
+    steps = np.array([size[1] / copy.size[1], size[0] / copy.size[0]], np.float32)
+    shift = copy.up(field * steps)
 
     places = correspondence.places.copy()
     known = correspondence.inside[rows, columns]

@@ -13,6 +13,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import channel_mean
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import Features, FloatArray, Landmarks, Mask, Shading
 
 Length = Annotated[float, Field(gt=0, le=1)]
@@ -64,24 +65,22 @@ def shaved(
 
     if given is not None:
         return given
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    unit = landmarks.interocular * scale
     window = _box(landmarks, skin.shape)
     if window is None:
         return skin
     rows, columns = window
-    size = [max(1, round((s.stop - s.start) * scale)) for s in (columns, rows)]
+    copy = face_scale(landmarks, (rows.stop - rows.start, columns.stop - columns.start), resolution)
 
     def small(values: FloatArray) -> FloatArray:
-        return np.asarray(cv2.resize(values[window], size, interpolation=cv2.INTER_AREA), np.float32)
+        return copy.down(values[window])
 
     def smooth(values: FloatArray, sigma: float) -> FloatArray:
-        width = max(sigma * unit, 0.5)
+        width = max(sigma * copy.interocular, 0.5)
         return np.asarray(cv2.GaussianBlur(values, (0, 0), width, borderType=cv2.BORDER_REPLICATE), np.float32)
 
     def patch(points: tuple[int, ...]) -> FloatArray:
-        corners = (landmarks.points[list(points), :2] - (columns.start, rows.start)) * scale
-        drawn = np.zeros(size[::-1], np.uint8)
+        corners = (landmarks.points[list(points), :2] - (columns.start, rows.start)) * copy.scale
+        drawn = np.zeros(copy.size, np.uint8)
         cv2.fillConvexPoly(drawn, cv2.convexHull(np.round(corners).astype(np.int32)), 1)
         return drawn.astype(np.float32)
 
@@ -98,8 +97,7 @@ def shaved(
     near = (surely * smooth(patch(where), 2 * around) for surely, where in ((lip, MOUSTACHE), (chin, BEARD)))
     hair *= np.clip(2 * np.maximum(*near), 0, 1)
     without = skin.copy()
-    shape = (columns.stop - columns.start, rows.stop - rows.start)
-    without[window] *= 1 - np.asarray(cv2.resize(hair, shape, interpolation=cv2.INTER_LINEAR), np.float32)
+    without[window] *= 1 - copy.up(hair)
     return without
 
 

@@ -16,6 +16,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import in_three_channels
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Features, FloatArray, Image, Landmarks, Mask
 
@@ -53,26 +54,21 @@ def boundary(
 
     if not (core > 0).any():
         return photo
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    unit = landmarks.interocular * scale
-    size = tuple(max(1, round(n * scale)) for n in core.shape)
-
-    def small(values: FloatArray) -> FloatArray:
-        return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
-
-    weight, before = small(core), small(photo.pixels)
-    change = np.log(np.maximum(small(painted.pixels), 0) + np.float32(_FLOOR))
+    copy = face_scale(landmarks, core.shape, resolution)
+    unit = copy.interocular
+    weight, before = copy.down(core), copy.down(photo.pixels)
+    change = np.log(np.maximum(copy.down(painted.pixels), 0) + np.float32(_FLOOR))
     change -= np.log(np.maximum(before, 0) + np.float32(_FLOOR))
     known = weight >= min(0.5, float(weight.max()))
-    bare = known & (small(features.any_of("eyes", "mouth", "lips", "lids", "brows")) < 0.1)
+    bare = known & (copy.down(features.any_of("eyes", "mouth", "lips", "lids", "brows")) < 0.1)
     bare = bare if bare.any() else known
     change = np.clip(change, -_MOST, _MOST)
     around = _averaged(change, bare, 0.4 * unit)
     change[known & ~bare] = around[known & ~bare]  # lips and brows have no place in the ring
     continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
-    factor = np.asarray(cv2.resize(np.exp(continued), core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
+    factor = copy.up(np.exp(continued))
     smooth = cv2.GaussianBlur(before, (0, 0), max(0.03 * unit, 0.5), borderType=cv2.BORDER_REPLICATE)
-    broad = np.asarray(cv2.resize(smooth, core.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
+    broad = copy.up(np.asarray(smooth, np.float32))
     # What shines more than skin does is no skin color: it moves with the skin, and is not multiplied.
     matte = np.quantile(before[bare], 0.8, axis=0).astype(np.float32)
     opening = np.maximum(features.eyes, features.mouth)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import Features, FloatArray, Image, Landmarks, Mask, Segmentation
 
 _LEAST_PIXELS = 30
@@ -53,14 +54,8 @@ def uncovered(
 
     if given is not None:
         return given
-    unit = max(landmarks.interocular, 1e-3)
-    scale = min(1.0, resolution / unit)
-    size = tuple(max(1, round(n * scale)) for n in skin.shape)
-    unit *= scale
-
-    def small(values: FloatArray) -> FloatArray:
-        return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
-
+    copy = face_scale(landmarks, skin.shape, resolution)
+    unit, small = copy.interocular, copy.down
     pixels = np.asarray(cv2.GaussianBlur(small(photo.pixels), (0, 0), max(0.03 * unit, 0.5)), np.float32)
     hair, bare = small(labels.hair) > 0.8, small(skin) > 0.9
     # Eye shadow may have the hair's color and reach it.
@@ -79,8 +74,7 @@ def uncovered(
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * max(1, round(margin * unit)) + 1,) * 2)
     found = cv2.dilate(strand.astype(np.float32), kernel) * (1 - special)
     found = cv2.GaussianBlur(found.astype(np.float32), (0, 0), max(0.02 * unit, 0.5))
-    hidden = cv2.resize(found, skin.shape[::-1], interpolation=cv2.INTER_LINEAR)
-    return np.asarray(skin * (1 - hidden), np.float32)
+    return np.asarray(skin * (1 - copy.up(np.asarray(found, np.float32))), np.float32)
 
 
 def _likelier(

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import channel_mean
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import Features, FloatArray, Landmarks, Mask, Shading
 
 _LEAST_LIGHT = 0.02
@@ -36,12 +37,10 @@ def in_front(
     """
     import cv2
 
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    full = (shading.shape[1], shading.shape[0])
     grey = channel_mean(shading)
-    small = cv2.resize(grey, [max(1, round(n * scale)) for n in full], interpolation=cv2.INTER_AREA)
-    sigma = max(size * landmarks.interocular * scale, 0.5)
-    around = cv2.resize(cv2.GaussianBlur(small, (0, 0), sigma), full, interpolation=cv2.INTER_LINEAR)
+    copy = face_scale(landmarks, grey.shape, resolution)
+    sigma = max(size * copy.interocular, 0.5)
+    around = copy.up(np.asarray(cv2.GaussianBlur(copy.down(grey), (0, 0), sigma), np.float32))
     relative = (grey + np.float32(_LEAST_LIGHT)) / (around + np.float32(_LEAST_LIGHT))
     found: FloatArray = np.clip(3 - relative * np.float32(3 / dark), 0, 1)
     found *= 1 - np.minimum(features.any_of("brows", "lips", "eyes", "mouth"), 1)

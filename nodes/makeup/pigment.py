@@ -15,6 +15,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import channel_mean
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, FloatArray, Landmarks, Mask, Shading
 
@@ -53,25 +54,18 @@ def pigment(
     """
     import cv2
 
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    unit = max(landmarks.interocular * scale, 1e-3)
-    full = (albedo.shape[1], albedo.shape[0])
-    size = (max(1, round(full[0] * scale)), max(1, round(full[1] * scale)))
-
-    def small(values: FloatArray) -> FloatArray:
-        return np.asarray(cv2.resize(values, size, interpolation=cv2.INTER_AREA), np.float32)
-
-    def large(values: FloatArray) -> FloatArray:
-        return np.asarray(cv2.resize(values, full, interpolation=cv2.INTER_LINEAR), np.float32)
-
+    copy = face_scale(landmarks, albedo.shape, resolution)
+    unit = copy.interocular
     light = channel_mean(estimated)
-    brightness, lit, color = small(channel_mean(shading)), small(light), small(albedo)
+    brightness, lit, color = copy.down(channel_mean(shading)), copy.down(light), copy.down(albedo)
     usual = _smooth(brightness, 1.5 * reach * unit)
-    weight = (np.square(_trusted(brightness, usual, lit, dark, bright)) + _LEAST_TRUST) * (small(skin) + _LEAST_TRUST)
+    weight = (np.square(_trusted(brightness, usual, lit, dark, bright)) + _LEAST_TRUST) * (
+        copy.down(skin) + _LEAST_TRUST
+    )
     near, far = (_smooth(np.dstack([color * weight[..., None], weight]), r * reach * unit) for r in (1, 4))
     mean = near + np.float32(_FAR) * far
-    around = large(np.asarray(mean[..., :3] / np.maximum(mean[..., 3:], np.float32(1e-9)), np.float32))
-    usual = large(usual)
+    around = copy.up(np.asarray(mean[..., :3] / np.maximum(mean[..., 3:], np.float32(1e-9)), np.float32))
+    usual = copy.up(usual)
     steady = np.empty_like(albedo)
 
     def strip(rows: slice) -> None:

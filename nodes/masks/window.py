@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.head_shape import pose_of
 from graphface.nodes.types import FloatArray, Landmarks
 
@@ -92,10 +93,8 @@ def window_about(landmarks: Landmarks, shape: tuple[int, ...], resolution: int) 
         side = above = below = max(side, above, below)
     left, right = _clipped(x - side, x + side, width)
     top, bottom = _clipped(y - above, y + below, height)
-    scale = min(1.0, resolution / unit, MAX_SIDE / max(right - left, bottom - top))
-    return Window(
-        top, bottom, left, right, max(1, round((bottom - top) * scale)), max(1, round((right - left) * scale))
-    )
+    height, width = face_scale(landmarks, (bottom - top, right - left), resolution, most=MAX_SIDE).size
+    return Window(top, bottom, left, right, height, width)
 
 
 def _clipped(low: float, high: float, size: int) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.morphable.facemesh import facemesh_mesh
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.rasterize import rasterized
@@ -54,18 +55,14 @@ NAMES = tuple(field.name for field in fields(Regions))
 
 def projected(drawn: list[FloatArray], photo: Image, landmarks: Landmarks) -> list[Mask]:
     """Maps of the atlas on a photo, H x W each; 0 off the face. They are soft, so a small copy of the photo will do."""
-    import cv2
-
-    scale = min(1.0, _FINEST / max(landmarks.interocular, 1e-3))
-    height, width = (max(1, round(n * scale)) for n in (photo.height, photo.width))
-    if scale < 1:
-        sides = np.array([width / photo.width, height / photo.height, scale], np.float32)
+    copy = face_scale(landmarks, photo.pixels.shape, _FINEST)
+    if copy.scale < 1:
+        height, width = copy.size
+        sides = np.array([width / photo.width, height / photo.height, copy.scale], np.float32)
         middle = np.array([0.5, 0.5, 0], np.float32)  # pixel centres are at whole numbers
         landmarks = replace(landmarks, points=(landmarks.points + middle) * sides - middle)
-    x, y, covered = mean_face_coordinates((height, width), landmarks)
-    full = (photo.width, photo.height)
-    maps = [_looked_up(map_, x, y) * covered for map_ in drawn]
-    return [np.asarray(cv2.resize(map_, full, interpolation=cv2.INTER_LINEAR), np.float32) for map_ in maps]
+    x, y, covered = mean_face_coordinates(copy.size, landmarks)
+    return [copy.up(_looked_up(map_, x, y) * covered) for map_ in drawn]
 
 
 def mean_face_coordinates(size: tuple[int, int], landmarks: Landmarks) -> tuple[FloatArray, FloatArray, FloatArray]:

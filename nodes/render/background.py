@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import numpy as np
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.render.beyond import core_of, nearest_core, smooth_step
-from graphface.nodes.types import FloatArray, Landmarks, Mask, Scene, Shading
+from graphface.nodes.types import Landmarks, Mask, Scene, Shading
 
 Length = Annotated[float, Field(gt=0, le=10)]
 
@@ -41,30 +41,14 @@ def background(
     """
     if scene.background == 1 or estimated is relit:
         return relit
-    unit = max(landmarks.interocular, 1e-3)
-    scale = min(1.0, resolution / unit)
-    small_mask = _shrunk(mask, scale)
-    core = core_of(small_mask)
+    copy = face_scale(landmarks, mask.shape, resolution)
+    core = core_of(copy.down(mask))
     if core is None:
         return relit
     _, distance = nearest_core(core)
-    fall = smooth_step((distance / (unit * scale) - near) / max(far - near, 1e-3))
-    share = _enlarged(1 - (1 - scene.background) * fall, mask.shape)
+    fall = smooth_step((distance / copy.interocular - near) / max(far - near, 1e-3))
+    share = copy.up(1 - (1 - scene.background) * fall)
     if estimated.ndim < relit.ndim:
         estimated = estimated[..., None]
     mixed: Shading = estimated + share.reshape(*share.shape, *[1] * (relit.ndim - 2)) * (relit - estimated)
     return mixed
-
-
-def _shrunk(values: FloatArray, scale: float) -> FloatArray:
-    """Area means in a smaller copy."""
-    import cv2
-
-    height, width = (max(1, round(n * scale)) for n in values.shape[:2])
-    return np.asarray(cv2.resize(values, (width, height), interpolation=cv2.INTER_AREA), np.float32)
-
-
-def _enlarged(values: FloatArray, shape: tuple[int, ...]) -> FloatArray:
-    import cv2
-
-    return np.asarray(cv2.resize(values, (shape[1], shape[0]), interpolation=cv2.INTER_LINEAR), np.float32)

@@ -9,12 +9,8 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import channel_mean, in_three_channels
-from graphface.nodes.types import (
-    FloatArray,
-    Image,
-    Landmarks,
-    Mask,
-)
+from graphface.nodes.face_scale import face_scale
+from graphface.nodes.types import Image, Landmarks, Mask
 
 Scale = Annotated[float, Field(gt=0, le=2)]
 
@@ -52,24 +48,17 @@ def paint(
     """
     import cv2
 
-    unit = max(landmarks.interocular, 1e-3)
-    scale = min(1.0, resolution / unit)
-    size = [max(1, round(n * scale)) for n in mask.shape[::-1]]
-    unit *= scale
-
-    def small(values: FloatArray) -> FloatArray:
-        return np.asarray(cv2.resize(values, size, interpolation=cv2.INTER_AREA), np.float32)
-
-    where = small(mask) > 0.5
+    copy = face_scale(landmarks, mask.shape, resolution)
+    unit = copy.interocular
+    where = copy.down(mask) > 0.5
     if not where.any():
         return np.zeros_like(mask)
     colors = []
-    for pixels in (small(photo.pixels), small(reference.pixels)):
+    for pixels in (copy.down(photo.pixels), copy.down(reference.pixels)):
         color = (pixels + _DARK) / in_three_channels(np.maximum(channel_mean(pixels), 0) + _DARK)
         colors.append(color / np.maximum(np.median(color[where], axis=0), _LEAST_COLOR))
     apart = np.abs(colors[0] - colors[1]).max(axis=2).astype(np.float32)
     apart = cv2.GaussianBlur(apart, (0, 0), max(0.02 * unit, 0.5))
     apart = cv2.dilate(apart, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(margin * unit) + 1,) * 2))
     found = np.clip((apart - faint) / max(full - faint, 1e-3), 0, 1).astype(np.float32)
-    shown = cv2.resize(found, mask.shape[::-1], interpolation=cv2.INTER_LINEAR)
-    return np.asarray(np.clip(shown, 0, 1) * (mask > 0), np.float32)
+    return np.asarray(np.clip(copy.up(found), 0, 1) * (mask > 0), np.float32)

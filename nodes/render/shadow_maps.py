@@ -1,4 +1,4 @@
-"""Shadows that the face casts on itself, for every light of a scene that casts one."""
+"""Shadows of the face on itself, for every light of a scene that casts one."""
 
 from __future__ import annotations
 
@@ -7,17 +7,18 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from graphface import node
-from graphface.nodes.render.shadow_map import disc, lit_share
+from graphface import Formerly, node
+from graphface.nodes.render.depth_buffer import disc, visible_share
 from graphface.nodes.types import DirectionalLight, FloatArray, Mesh, Samples, Scene, Shadows
 from graphface.nodes.types.lights import Casting
 
-_SUN = 40.0
-"""Where a directional light is put, inter-ocular distances: its rays then part by a degree or two across the face."""
+_DIRECTIONAL_DISTANCE = 40.0
+"""Distance at which a directional light is placed, inter-ocular distances. Across the face its rays then differ by one
+or two degrees."""
 
 
-_LARGEST = np.radians(45.0)
-"""Angle to the edge beyond which a light's shadow gets no softer: nothing of it is left to see."""
+_LARGEST_RADIUS = np.radians(45.0)
+"""Angular radius of a light beyond which its shadow gets no softer, because nothing of it is visible any more."""
 
 
 @node("render.shadow_maps")
@@ -28,21 +29,21 @@ def shadow_maps(
     *,
     resolution: Annotated[int, Field(ge=1, le=4096)] = 256,
     samples: Annotated[int, Field(ge=1, le=256)] = 12,
-    lift: Annotated[float, Field(ge=0, le=0.5)] = 0.02,
+    bias: Annotated[float, Field(ge=0, le=0.5), Formerly("lift")] = 0.02,
     smoothing: Annotated[float, Field(ge=0, le=0.5)] = 0.02,
 ) -> Shadows:
-    """How much of each casting light reaches the face past the face itself.
+    """The visible share of each shadow-casting light at the points that the camera sees.
 
     Args:
         mesh: casts the shadows.
-        receivers: points of the same mesh that the camera sees; the answer is as fine as their grid.
+        receivers: points of the same mesh; the result has their grid.
         resolution: texels along a side of each light's depth buffer.
-        samples: places on a `soft` light; a `hard` one has one, with twice the resolution.
-        lift: see `graphface.nodes.render.shadow_map`, inter-ocular distances.
-        smoothing: blur of the result, inter-ocular distances.
+        samples: points on a `soft` light. A `hard` one has a single point and twice the resolution.
+        bias: height above the surface from which a point is compared with the depth buffer, inter-ocular distances.
+        smoothing: standard deviation of the blur of the result, inter-ocular distances.
 
     Returns:
-        One map per casting light, of the receivers' grid.
+        One map for each casting light.
     """
     unit = max(mesh.interocular, 1e-3)
     vertices = np.ascontiguousarray(mesh.vertices / np.float32(unit), np.float32)
@@ -51,33 +52,33 @@ def shadow_maps(
         shares = np.ones(len(receivers.points), np.float32)
         if shares.size and np.isfinite(vertices).all():
             soft = light.shadow == "soft" and samples > 1 and light.size > 0
-            shares = lit_share(
+            shares = visible_share(
                 receivers.points,
                 receivers.normals,
-                _places(light, samples if soft else 1),
+                _points_on_light(light, samples if soft else 1),
                 vertices,
                 mesh.triangles,
                 resolution=resolution if soft else 2 * resolution,
-                lift=lift,
+                bias=bias,
             )
         maps[index] = _smoothed(shares, receivers, smoothing * receivers.grid[1] / receivers.picture[1] * unit)
     stacked = np.stack(list(maps.values())) if maps else np.ones((0, *receivers.grid), np.float32)
     return Shadows(lights=tuple(maps), visible=stacked)
 
 
-def _places(light: Casting, count: int) -> FloatArray:
-    """Points on the light, (count, 3), inter-ocular distances."""
-    middle = light.towards * np.float32(_SUN) if isinstance(light, DirectionalLight) else light.place
+def _points_on_light(light: Casting, count: int) -> FloatArray:
+    """Points on the light's disc, float32 (count, 3), inter-ocular distances from the middle of the face."""
+    middle = light.towards * np.float32(_DIRECTIONAL_DISTANCE) if isinstance(light, DirectionalLight) else light.place
     distance = max(float(np.linalg.norm(middle)), 1e-6)
-    radius = distance * float(np.tan(min(np.radians(light.size), _LARGEST)))
+    radius = distance * float(np.tan(min(np.radians(light.size), _LARGEST_RADIUS)))
     return np.asarray(middle + disc(middle / distance, radius, count), np.float32)
 
 
-def _smoothed(shares: FloatArray, receivers: Samples, blur: float) -> FloatArray:
-    """On the grid, blurred within the surface, and continued a little beyond it; 1 elsewhere."""
+def _smoothed(shares: FloatArray, receivers: Samples, sigma: float) -> FloatArray:
+    """The shares (n,) on the grid, blurred within the surface and continued a little beyond it; 1 elsewhere."""
     import cv2
 
-    sigma = max(blur, 0.6)
+    sigma = max(sigma, 0.6)
     weight, visible = (np.zeros(receivers.grid, np.float32) for _ in range(2))
     weight.reshape(-1)[receivers.cells] = 1
     visible.reshape(-1)[receivers.cells] = shares
