@@ -92,7 +92,7 @@ def portrait_residuals(folder: Path, model: MorphableModel, every: int = 1) -> I
         except GraphfaceError as error:
             warn(f"{path.name} is left out: {error}")
             continue
-        spent = evaluator.cpu_ms(evaluator.key(graph, "mesh"), [evaluator.key(graph, "landmarks")])
+        spent = evaluator.cpu_ms(evaluator.key("mesh"), [evaluator.key("landmarks")])
         yield Residual(path.name, 100 * fit.residual / max(fit.scale, 1e-6), spent)
 
 
@@ -108,5 +108,5 @@ def _fitted(
     except GraphfaceError:
         return PhotoFit(name, 100.0, 0.0, true_yaw, 0.0)
     error = landmark_error(mesh, model.landmarks["ibug68"], own, size)
-    spent = evaluator.cpu_ms(evaluator.key(graph, "mesh"))
+    spent = evaluator.cpu_ms(evaluator.key("mesh"))
     return PhotoFit(name, error, yaw_pitch_roll(mesh.fit.rotation)[0], true_yaw, spent)

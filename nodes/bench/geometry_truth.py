@@ -97,7 +97,7 @@ def _head(head: Head, compared: Sequence[Geometry]) -> Iterator[Accuracy]:
                 landmarks=None if points is None else landmark_error(found["mesh"], geometry.points68, points),
                 normals=mean_angle(surface.normals, head.normals, head.face),
                 depth=correlation(surface.depth[both], -head.depth[both]),
-                milliseconds=evaluator.cpu_ms(evaluator.key(graph, "mesh"), [evaluator.key(graph, "landmarks")]),
+                milliseconds=evaluator.cpu_ms(evaluator.key("mesh"), [evaluator.key("landmarks")]),
             )
 
 

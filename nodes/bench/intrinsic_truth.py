@@ -72,5 +72,5 @@ def _compared(head: Head, light: str, graphs: Mapping[str, Graph]) -> Iterator[I
             albedo_lmse=lmse(albedo, head.albedo, mask),
             shading_si_mse=si_mse(found, shading, mask),
             shading_lmse=lmse(found, shading, mask),
-            milliseconds=evaluator.cpu_ms(evaluator.key(graph, _NODE), [evaluator.key(graph, "unclipped")]),
+            milliseconds=evaluator.cpu_ms(evaluator.key(_NODE), [evaluator.key("unclipped")]),
         )

@@ -125,7 +125,7 @@ def _relit_subject(cases: Sequence[Case], variants: Sequence[Variant], out: Path
     for case in cases:
         for variant, session, own in zip(variants, sessions, made, strict=True):
             pixels = _relit(session, case, variant)
-            own.append((compared(pixels, case.truth, case.mask), evaluator.key(session.graph, "image")))
+            own.append((compared(pixels, case.truth, case.mask), evaluator.key("image")))
             if out is not None:
                 folder = (out if len(variants) == 1 else out / variant.name) / case.subject
                 make_folder(folder)

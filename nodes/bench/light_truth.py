@@ -80,4 +80,4 @@ def _fitted(graph: Graph, head: Head, light: str, evaluator: MeteredEvaluator) -
     """The direction of the light, and the CPU milliseconds of its fit."""
     given = ("intrinsic", "surface", "mask")
     found = graph.run([*given, _FOUND], evaluator=evaluator, photo=head.path(light))[_FOUND]
-    return found, evaluator.cpu_ms(evaluator.key(graph, _FOUND), [evaluator.key(graph, node) for node in given])
+    return found, evaluator.cpu_ms(evaluator.key(_FOUND), [evaluator.key(node) for node in given])

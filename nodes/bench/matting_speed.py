@@ -67,7 +67,7 @@ def compared(path: Path, graph: Graph) -> Compared:
     """One photo, both ways; the graph mattes by matting.closed_form."""
     evaluator, classes = MeteredEvaluator(), unmatted()
     made = graph.run(["working", "landmarks", classes, MATTED], evaluator=evaluator, photo=path)
-    before, matted = evaluator.key(graph, classes), evaluator.key(graph, MATTED)
+    before, matted = evaluator.key(classes), evaluator.key(MATTED)
     evaluator.forget(matted)  # run again: compiled code is loaded once
     found = graph.run([MATTED], evaluator=evaluator, photo=path)[MATTED]
     (settings,) = (step.parameters for step in graph.steps if step.name == MATTED)

@@ -16,7 +16,6 @@ from graphface import Evaluator, MemoryTier, Observer, Result
 if TYPE_CHECKING:
     from graphface.graph.request import Request
     from graphface.graph.structure import Step
-    from graphface.graph.wired import WiredGraph
     from graphface.record import Record
 
 
@@ -34,14 +33,13 @@ class MeteredEvaluator(Evaluator):
     def run(self, request: Request, observers: Sequence[Observer] = ()) -> Result:
         from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
+        self._last = request
         with threadpool_limits(1, user_api="blas"):
             return super().run(request, observers)
 
-    def key(self, graph: WiredGraph, output: str) -> bytes:
-        """The cache key that an output of this graph, or a node's, had in the graph's last run."""
-        keys = self.last_keys(graph)
-        assert keys is not None
-        return keys.by_slot[graph.targets([output])[output].slot]
+    def key(self, output: str) -> bytes:
+        """The cache key that an output, or any "node", had in the last run."""
+        return self._last.key(self._last.graph.targets([output])[output].slot)
 
     def cpu_ms(self, key: bytes, given: Iterable[bytes] = ()) -> float:
         """CPU milliseconds of all that a result needs and that none of the `given` results needs as well."""
@@ -61,12 +59,11 @@ class _Costs(Observer):
     def __init__(self) -> None:
         self.seconds: dict[bytes, float] = {}
         self.behind: dict[bytes, frozenset[bytes]] = {}
-        self._keys: Sequence[bytes] = ()
         self._declined: set[tuple[bytes, str]] = set()
         self._started = 0.0
 
     def run_started(self, request: Request) -> None:
-        self._keys = request.keys.by_slot
+        self._request = request
 
     def node_started(self, name: str, step: Step | None) -> None:
         self._started = time.process_time()
@@ -81,5 +78,5 @@ class _Costs(Observer):
             took = time.process_time() - self._started
             self.seconds[key] = min(took, self.seconds.get(key, took))
             wired = [argument for argument in step.arguments if (key, argument.port) not in self._declined]
-            above = {self._keys[ref.slot] for argument in wired for ref in argument.refs}
+            above = {self._request.key(ref.slot) for argument in wired for ref in argument.refs}
             self.behind[key] = frozenset({key}).union(*(self.behind.get(other, ()) for other in above))

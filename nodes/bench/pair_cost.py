@@ -12,5 +12,5 @@ def transfer_ms(evaluator: MeteredEvaluator, graph: Graph) -> float:
 
     drawn = graph.networkx()
     joint = descendants(drawn, "photo") & descendants(drawn, "reference")
-    alone = [evaluator.key(graph, step.name) for step in graph.steps if step.name not in joint]
-    return evaluator.cpu_ms(evaluator.key(graph, "image"), given=alone)
+    alone = [evaluator.key(step.name) for step in graph.steps if step.name not in joint]
+    return evaluator.cpu_ms(evaluator.key("image"), given=alone)

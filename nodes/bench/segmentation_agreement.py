@@ -56,13 +56,13 @@ def segment_agreement(
         except GraphfaceError as error:
             warn(f"{path.name} is left out: {error}")
             continue
-        surface, found = (evaluator.key(graph, node) for node in asked)
+        surface, found = (evaluator.key(node) for node in asked)
         other = network.run(asked, evaluator=evaluator, photo=path)
         yield Agreed(
             photo=path.stem,
             overlaps=agreement(likeliest(own["labels"]), likeliest(other["labels"])),
             milliseconds=evaluator.cpu_ms(found, [surface]),
-            network_ms=evaluator.cpu_ms(evaluator.key(network, "labels"), [surface]),
+            network_ms=evaluator.cpu_ms(evaluator.key("labels"), [surface]),
         )
 
 

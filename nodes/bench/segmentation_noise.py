@@ -79,7 +79,7 @@ def under_noise(portrait: Portrait, graph: Graph, seeds: int = 2, weights: Label
     pixels = portrait.photo.pixels
     given = {"points": portrait.landmarks, "segment/label_weights": weights}
     before = likeliest(graph.run(["labels"], evaluator=evaluator, photo=portrait.photo, **given)["labels"])
-    spent = evaluator.cpu_ms(evaluator.key(graph, "labels"))
+    spent = evaluator.cpu_ms(evaluator.key("labels"))
     kept = (1.0,) * len(LABELS)
     for seed in range(seeds):
         noise = np.random.default_rng(seed).integers(-1, 2, pixels.shape) / 255

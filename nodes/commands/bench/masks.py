@@ -43,14 +43,14 @@ def masks(
     from graphface import UsageError
     from graphface.nodes.bench.heads import LIGHTS
     from graphface.nodes.bench.segmentation_graphs import LABELLINGS, MATTINGS
-    from graphface.nodes.masks.label_weights import LabelWeights
+    from graphface.nodes.masks.label_weights import LabelWeights, read_weights
 
     _check("--labels", [labels], LABELLINGS)
     _check("--matting", matting or [], MATTINGS)
     _check("--light", [light], LIGHTS)
     if weights is not None and labels != "classify":
         raise UsageError("--weights goes with --labels classify")
-    learned = None if weights is None else LabelWeights.from_file(weights)
+    learned = None if weights is None else LabelWeights(read_weights(weights))
     if noise is not None:
         _noise(noise, labels, learned)
     elif agreement is not None:

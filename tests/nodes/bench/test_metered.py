@@ -42,20 +42,20 @@ class TestCost:
         """A node that is needed twice counts once."""
         graph = chain()
         graph.run(evaluator=evaluator, x=1.0)
-        assert evaluator.cpu_ms(evaluator.key(graph, "third")) == pytest.approx(3)
+        assert evaluator.cpu_ms(evaluator.key("third")) == pytest.approx(3)
 
     def test_what_was_shared_counts_for_every_variant(self, evaluator, ran):
         """The second variant runs one node and is charged for three."""
         for graph in (chain(), chain(**{"third.plus": 9.0})):
             graph.run(evaluator=evaluator, x=1.0)
-            assert evaluator.cpu_ms(evaluator.key(graph, "third")) == pytest.approx(3)
+            assert evaluator.cpu_ms(evaluator.key("third")) == pytest.approx(3)
         assert len(ran) == 4
 
     def test_without_what_is_at_hand(self, evaluator):
         """Given a result, only what comes after it counts; given the result itself, nothing."""
         graph = chain()
         graph.run(evaluator=evaluator, x=1.0)
-        first, second, third = (evaluator.key(graph, name) for name in ("first", "second", "third"))
+        first, second, third = (evaluator.key(name) for name in ("first", "second", "third"))
         assert evaluator.cpu_ms(third, [second]) == pytest.approx(1)
         assert evaluator.cpu_ms(third, [first]) == pytest.approx(2)
         assert evaluator.cpu_ms(third, [third]) == 0
@@ -64,15 +64,15 @@ class TestCost:
         """Beside the result of another input, everything that the input reaches."""
         graph = chain()
         graph.run(evaluator=evaluator, x=1.0)
-        before = evaluator.key(graph, "third")
+        before = evaluator.key("third")
         graph.run(evaluator=evaluator, x=2.0)
-        assert evaluator.cpu_ms(evaluator.key(graph, "third"), [before]) == pytest.approx(3)
+        assert evaluator.cpu_ms(evaluator.key("third"), [before]) == pytest.approx(3)
 
     def test_an_input_costs_nothing(self, evaluator):
         """It was given."""
         graph = chain()
         graph.run(["x", "third"], evaluator=evaluator, x=1.0)
-        assert evaluator.cpu_ms(evaluator.key(graph, "x")) == 0
+        assert evaluator.cpu_ms(evaluator.key("x")) == 0
 
 
 class TestForget:
@@ -81,7 +81,7 @@ class TestForget:
         graph = chain()
         graph.run(evaluator=evaluator, x=1.0)
         ran.clear()
-        evaluator.forget(evaluator.key(graph, "third"))
+        evaluator.forget(evaluator.key("third"))
         graph.run(evaluator=evaluator, x=1.0)
         assert len(ran) == 1
 
@@ -89,7 +89,7 @@ class TestForget:
         """A first run that imports is slower and says nothing of the method."""
         graph = chain()
         graph.run(evaluator=evaluator, x=1.0)
-        key = evaluator.key(graph, "third")
+        key = evaluator.key("third")
         monkeypatch.setattr(metered.time, "process_time", lambda: 0.0)
         evaluator.forget(key)
         graph.run(evaluator=evaluator, x=1.0)
@@ -112,4 +112,4 @@ class TestDeclined:
         graph = load(DECLINING, registry=toy_registry())
         graph.run(["extra"], evaluator=evaluator, x=x)
         graph.run(["extra", "chosen"], evaluator=evaluator, x=x)
-        assert evaluator.cpu_ms(evaluator.key(graph, "chosen")) == pytest.approx(cost)
+        assert evaluator.cpu_ms(evaluator.key("chosen")) == pytest.approx(cost)

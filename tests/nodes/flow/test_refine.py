@@ -1,4 +1,4 @@
-"""Optical flow refines a correspondence where that makes two faces match, and only there."""
+"""Optical flow refines a correspondence where that makes two faces match, and only there; whatever the method."""
 
 from dataclasses import replace
 
@@ -6,11 +6,18 @@ import numpy as np
 import pytest
 
 from graphface import GraphfaceWarning
-from graphface.nodes.flow import deepflow, dis, farneback, none, tvl1
+from graphface.node import operator_of
+from graphface.nodes.flow.deepflow import deepflow
+from graphface.nodes.flow.dis import dis
+from graphface.nodes.flow.farneback import farneback
+from graphface.nodes.flow.none import none
+from graphface.nodes.flow.refine import flow_operator
+from graphface.nodes.flow.tvl1 import tvl1
 from graphface.nodes.types import Image
 from graphface.nodes.warp.mesh import mesh as correspond
+from graphface.registry import default_registry
 
-METHODS = [dis.dis, farneback.farneback, deepflow.deepflow, tvl1.tvl1]
+METHODS = [dis, farneback, deepflow, tvl1]
 
 
 def blobs(size: int, shift: float = 0.0) -> Image:
@@ -36,7 +43,7 @@ def deep_inside(correspondence):
 @pytest.mark.parametrize("method", METHODS)
 class TestRefined:
     def test_a_shift_is_found(self, pair, method):
-        """Where the reference's features lie 3 pixels off the meshes' word, most of that is corrected."""
+        """Where the reference's features lie 3 pixels beside what the meshes say, most of that is corrected."""
         correspondence, landmarks = pair
         got = method(blobs(200), blobs(200, shift=3.0), correspondence, landmarks)
         moved = (got.places - correspondence.places)[deep_inside(correspondence)]
@@ -50,7 +57,7 @@ class TestRefined:
         np.testing.assert_array_equal(got.places, correspondence.places)
 
     def test_flat_pictures_stay(self, pair, method):
-        """Where there is nothing to match the meshes win."""
+        """Where there is nothing to match the meshes decide."""
         correspondence, landmarks = pair
         flat = Image(np.full((200, 200, 3), 0.5, np.float32))
         got = method(flat, flat, correspondence, landmarks)
@@ -67,21 +74,56 @@ class TestRefined:
 
 class TestSmallFaces:
     def test_too_small_to_match(self, make_face):
-        """A face of a few pixels keeps the meshes' correspondence, and says so."""
+        """A face of a few pixels keeps the meshes' correspondence, with a warning."""
         photo, landmarks, mesh, surface = make_face(size=24, scale=0.25)
         correspondence = correspond(surface, mesh, surface, mesh)
         with pytest.warns(GraphfaceWarning, match="too few"):
-            assert dis.dis(photo, photo, correspondence, landmarks) is correspondence
+            assert dis(photo, photo, correspondence, landmarks) is correspondence
 
     def test_nothing_inside(self, pair):
         """Without any mesh in the picture nothing is done."""
         correspondence, landmarks = pair
         empty = replace(correspondence, inside=np.zeros_like(correspondence.inside))
-        assert dis.dis(blobs(200), blobs(200), empty, landmarks) is empty
+        assert dis(blobs(200), blobs(200), empty, landmarks) is empty
+
+
+class TestFlowOperator:
+    @pytest.mark.parametrize(("method", "resolution"), [(dis, 90), (farneback, 100), (deepflow, 60), (tvl1, 60)])
+    def test_declares_the_shared_ports_and_parameters(self, method, resolution):
+        """Each method is an operator of its own name, with its own default resolution and its paper in the help."""
+        operator = operator_of(method)
+        assert operator.name == f"flow.{method.__name__}"
+        assert list(operator.inputs) == ["photo", "reference", "correspondence", "landmarks"]
+        assert operator.parameters().model_dump() == {
+            "resolution": resolution,
+            "smoothing": 0.1,
+            "tolerance": 0.03,
+            "reach": 0.15,
+        }
+        assert operator.doc.splitlines()[0].endswith((".", ":"))
+        assert "smoothing:" in operator.doc
+
+    def test_one_of_our_own(self, pair):
+        """Any function from two grey pictures to displacements becomes an operator."""
+
+        @flow_operator("flow.shift", resolution=50)
+        def shift(source, target):
+            """Everything moves by one pixel."""
+            return np.ones((*source.shape, 2), np.float32)
+
+        correspondence, landmarks = pair
+        moved = shift(blobs(200), blobs(200, 3), correspondence, landmarks)
+        assert np.isfinite(moved.places).all()
+
+    def test_methods_are_interchangeable(self):
+        """Any of them, or none, may stand where another stands."""
+        registry = default_registry()
+        names = {o.name for o in registry.alternatives(registry.operator("flow.dis"))}
+        assert names == {"flow.none", "flow.farneback", "flow.deepflow", "flow.tvl1"}
 
 
 class TestNone:
     def test_is_the_identity(self, pair):
         """The correspondence as it comes."""
         correspondence, landmarks = pair
-        assert none.none(blobs(200), blobs(200, 3), correspondence, landmarks) is correspondence
+        assert none(blobs(200), blobs(200, 3), correspondence, landmarks) is correspondence

@@ -1,6 +1,8 @@
-"""Nine regions in face coordinates, projected to a face."""
+"""The nine regions of a face."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,10 +10,8 @@ from portraits import landmarks_at
 
 from graphface import UsageError
 from graphface.nodes.landmark_schemes import ibug68
-from graphface.nodes.regions.atlas import NAMES, atlas, mean_face_coordinates
-from graphface.nodes.regions.features import features
 from graphface.nodes.regions.nine import nine
-from graphface.nodes.types import Image
+from graphface.nodes.types import REGIONS, Image
 from graphface.testing import check_node
 
 BLANK = Image(np.zeros((200, 200, 3), np.float32))
@@ -26,7 +26,7 @@ class TestNine:
     def test_sum_to_at_most_one(self, landmarks):
         """Regions share what they overlap."""
         regions = nine(BLANK, landmarks)
-        assert sum(getattr(regions, name) for name in NAMES).max() <= 1 + 1e-5
+        assert sum(getattr(regions, name) for name in REGIONS).max() <= 1 + 1e-5
 
     @pytest.mark.parametrize(
         ("name", "point"),
@@ -40,7 +40,7 @@ class TestNine:
         regions = nine(BLANK, landmarks)
         x, y = np.round(landmarks.points[point, :2]).astype(int)
         assert getattr(regions, name)[y, x] > 0.5
-        assert all(getattr(regions, other)[y, x] < 0.5 for other in NAMES if other != name)
+        assert all(getattr(regions, other)[y, x] < 0.5 for other in REGIONS if other != name)
 
     def test_mirror_images(self, landmarks):
         """On a symmetric face left regions are the right ones' mirror images."""
@@ -56,6 +56,14 @@ class TestNine:
         assert nine(BLANK, small).mouth.sum() == pytest.approx(area / 4, rel=0.05)
         assert nine(BLANK, turned).mouth.sum() == pytest.approx(area, rel=0.03)
 
+    def test_a_large_face_has_the_regions_of_a_small_one(self, landmarks):
+        """Regions are drawn on a small copy of a large photo, and lie where they lie in a small one."""
+        factor = 6
+        large = replace(landmarks, points=(landmarks.points + np.float32([0.5, 0.5, 0])) * factor - np.float32(0.5))
+        photo = Image(np.zeros((200 * factor, 200 * factor, 3), np.float32))
+        mouth = nine(photo, large).mouth.reshape(200, factor, 200, factor).mean(axis=(1, 3))
+        assert np.abs(mouth - nine(BLANK, landmarks).mouth).max() < 0.1
+
     def test_softness(self, landmarks):
         """More softness, more pixels in between."""
         hard, soft = (nine(BLANK, landmarks, softness=s).mouth for s in (0.02, 0.2))
@@ -70,24 +78,3 @@ class TestNine:
     def test_node(self, landmarks):
         """It keeps an operator's promises."""
         check_node(nine, BLANK, landmarks)
-
-
-class TestFeatures:
-    def test_eyes_nose_mouth_and_no_skin(self, landmarks):
-        """1 on eyes, nose and mouth; 0 on cheeks, chin and forehead."""
-        mask = features(BLANK, landmarks)
-        at = {p: mask[tuple(np.round(landmarks.points[p, 1::-1]).astype(int))] for p in (159, 1, 13, 50, 280, 152, 151)}
-        assert min(at[p] for p in (159, 1, 13)) > 0.9
-        assert max(at[p] for p in (50, 280, 152, 151)) < 0.1
-
-    def test_within_the_face(self, landmarks):
-        """Nothing beyond the mesh."""
-        covered = mean_face_coordinates((BLANK.height, BLANK.width), landmarks)[2]
-        assert not features(BLANK, landmarks)[covered == 0].any()
-
-
-class TestAtlas:
-    def test_read_only(self):
-        """What is drawn once cannot be drawn over."""
-        with pytest.raises(ValueError, match="read-only"):
-            atlas(0.08)["nose"][0, 0] = 1
