@@ -77,7 +77,6 @@ class _Composer:
         scope = self._expand(document, "", None, {}, flags, ())
         self._check_choices()
         return Composition(
-            source=document.source,
             path=document.path,
             name=document.name or (document.path.stem if document.path else "graph"),
             doc=document.doc,
@@ -87,7 +86,6 @@ class _Composer:
             variants=sorted(self._declared["variant"]),
             profiles=sorted(self._declared["profile"]),
             scope=scope,
-            files=self._files.paths,
             problems=self._problems,
         )
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from graphface.document.document import InputEntry, Setting
 from graphface.document.references import Scope, Target
 from graphface.errors import Problem
-from graphface.place import Place, Source
+from graphface.place import Place
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,6 @@ class Composition:
     `problems` is what is wrong so far; wiring adds what it finds, so that all of it is told at once.
     """
 
-    source: Source
     path: Path | None
     name: str
     doc: str
@@ -59,5 +58,4 @@ class Composition:
     variants: list[str]
     profiles: list[str]
     scope: Scope
-    files: list[Path]
     problems: list[Problem]
