@@ -14,9 +14,9 @@ _MODULES = {
     "texture": "unwrap project",
     "overlay": "mesh normals depth checkerboard",
     "export": "textured",
-    "masks": "face geometric features cue cued_hair hair classify network override",
+    "masks": "face geometric features cue cued_hair hair classify network given_head given_hair given_labels",
     "matting": "none guided closed_form knn",
-    "regions": "nine features",
+    "regions": "nine",
     "intrinsic": "intensity retinex multiscale_retinex bilateral log_tv l1_flatten bell2014",
     "albedo": "shadow_color",
     "metrics": "operators",
@@ -24,8 +24,8 @@ _MODULES = {
     "sh": "fit render rotate from_environment to_environment ball",
     "detail": "additive multiplicative none split",
     "detail.edit": "bands wrinkles shine",
-    "render": "samples shade shadows surroundings spread background head skin specular hair_shine response composite "
-    "relit",
+    "render": "samples shade shadow_maps surroundings spread background head skin specular hair_shine response "
+    "composite relit",
     "light": "scene panorama",
     "scatter": "none gaussian screen_space",
     "transfer": "mask paint detail recolored",
@@ -112,4 +112,5 @@ pack = Pack(
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
     },
     files={name: f"graphface.nodes.io.files:{constant}" for name, constant in _FILES.items()},
+    schemas={"scene": "graphface.nodes.types:Scene"},
 )
