@@ -3,9 +3,7 @@
     class Palette(BaseModel):
         colors: tuple[Color, ...]
 
-        @classmethod
-        def from_file(cls, path: Path) -> Palette:
-            return read_yaml(path, cls)
+    PALETTE = Files(read=lambda path: read_yaml(path, Palette))
 
 Such a file is read as graph files are: YAML 1.2 with positions, all mistakes at once, each with file, line, column, the
 text with a caret, and the nearest valid name.

@@ -117,9 +117,10 @@ def _write_environment(environment: Any, path: Path) -> None:
 
 
 def _read_scene(path: Path) -> Any:
+    from graphface import read_yaml
     from graphface.nodes.types import Scene
 
-    return Scene.from_file(path)
+    return read_yaml(path, Scene)
 
 
 def _read_pins(path: Path) -> Any:
