@@ -19,6 +19,7 @@ from graphface.node import Cosmetic, Formerly, Needs, node
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
+    from graphface.document.typed_yaml import read_yaml, validated
     from graphface.errors import (
         DeclarationError,
         DocumentError,
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.packs import Pack
     from graphface.registry import Registry
+    from graphface.values.files import Files
+    from graphface.values.parts import register_parts
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -53,6 +56,7 @@ _HOMES = {
     "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
+    "Files": "values.files",
     "Graph": "facade",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
@@ -70,6 +74,9 @@ _HOMES = {
     "UnwritableFile": "errors",
     "UsageError": "errors",
     "load": "facade",
+    "read_yaml": "document.typed_yaml",
+    "register_parts": "values.parts",
+    "validated": "document.typed_yaml",
     "warn": "fallback",
 }
 
@@ -80,6 +87,7 @@ __all__ = [
     "DeclarationError",
     "DocumentError",
     "Evaluator",
+    "Files",
     "Formerly",
     "Graph",
     "GraphfaceError",
@@ -100,6 +108,9 @@ __all__ = [
     "UsageError",
     "load",
     "node",
+    "read_yaml",
+    "register_parts",
+    "validated",
     "warn",
 ]
 

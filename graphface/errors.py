@@ -102,7 +102,7 @@ class UnknownType(UnknownName):
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing wrong with a graph file or a flag: what, where, and the names that may have been meant."""
+    """One thing wrong with a file or a flag: what, where, and the names that may have been meant."""
 
     message: str
     place: Place | None = None
@@ -116,7 +116,7 @@ class Problem:
 
 
 class DocumentError(UsageError):
-    """A graph is wrong; `problems` has every mistake found, not only the first."""
+    """A graph, or another file that people write, is wrong; `problems` has every mistake found, not only the first."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         self.problems = list(problems)

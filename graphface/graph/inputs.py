@@ -1,28 +1,30 @@
 """What a caller gives for a graph's inputs: files, arrays or values, known by content and loaded only when needed.
 
 A bound input has its digest at once and its value when somebody asks for it, so that a fully memoized run decodes no
-picture. The value is always what the digest was taken of, or results would be kept under the wrong keys: arrays that
-their owner may still write to are copied, and a file that was written to between hashing and reading is refused.
+picture. Only a pydantic model (a scene) is read at once: it is small, and its mistakes are found before anything runs.
+The value is always what the digest was taken of, or results would be kept under the wrong keys: arrays that their owner
+may still write to are copied, and a file that was written to between hashing and reading is refused.
 """
 
 from __future__ import annotations
 
-import copy
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from graphface.document.located import scalar
-from graphface.errors import InputError, UnreadableFile, nearest_names
+from graphface.document.located import plain
+from graphface.document.scalars import scalar
+from graphface.errors import DocumentError, InputError, UnreadableFile, nearest_names
 from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value
-from graphface.values.frozen import arrays_in, buffer_of, freeze
-from graphface.values.port_types import ArrayType, PortType, Reader, reader_of
+from graphface.values.files import FilesOf, Reader
+from graphface.values.frozen import buffer_of, freeze, with_arrays
+from graphface.values.port_types import ArrayType, PortType
 
 
 @dataclass(eq=False)
@@ -50,6 +52,7 @@ class Bound:
 def bind(
     inputs: Mapping[str, GraphInput],
     given: Mapping[str, Any],
+    files_of: FilesOf,
     *,
     roots: Sequence[Path] = (),
     stat_shortcut: bool = True,
@@ -59,23 +62,29 @@ def bind(
     Args:
         given: input name to a value, or to a path where the input's type can be read from a file, or to what an earlier
             call made of one.
+        files_of: how types are read from files.
         roots: folders in which relative paths are looked for: default files there only, given ones there at last.
         stat_shortcut: trust size and modification time of a file hashed before.
 
     Raises:
         InputError: an unknown input, or a value of the wrong type.
         UnreadableFile: a file that does not exist.
+        DocumentError: mistakes in a pydantic model's file, or in its default in the graph file.
     """
     for name in given:
         if name not in inputs:
             raise InputError(
                 name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs)
             )
-    return {
-        name: _bind_one(entry, given, roots, stat_shortcut)
+    bound = {
+        name: _bind_one(entry, given, files_of, roots, stat_shortcut)
         for name, entry in inputs.items()
         if _has_value(entry, given)
     }
+    for name in bound:
+        if _is_model(inputs[name].type):
+            bound[name].value  # noqa: B018 - reads it
+    return bound
 
 
 def missing_inputs(inputs: Mapping[str, GraphInput], given: Mapping[str, Any]) -> list[str]:
@@ -86,9 +95,12 @@ def _has_value(entry: GraphInput, given: Mapping[str, Any]) -> bool:
     return entry.name in given or entry.default is not None or entry.type.optional
 
 
-def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path], stat_shortcut: bool) -> Bound:
+def _bind_one(
+    entry: GraphInput, given: Mapping[str, Any], files_of: FilesOf, roots: Sequence[Path], stat_shortcut: bool
+) -> Bound:
     name, declared = entry.name, entry.type
-    reader = reader_of(declared)
+    files = files_of(declared)
+    reader = files.read if files is not None else None
     if name in given:
         value = given[name]
         if isinstance(value, Bound):
@@ -97,6 +109,8 @@ def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path]
             return _bind_file(entry, _given_file(value, roots), reader, stat_shortcut)
         return _bind_object(entry, _from_text(value, declared))
     default = entry.default.value if entry.default is not None else None
+    if not _is_model(declared):
+        default = plain(default)
     if reader is not None and isinstance(default, str):
         return _bind_file(entry, _default_file(entry, default, roots), reader, stat_shortcut)
     return _bind_object(entry, default)
@@ -125,36 +139,27 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
     if value is not None and declared.problem(value) is not None and not _coercible(declared):
         raise InputError(entry.name, declared.problem(value) or "")
     try:
-        own = _own(value)
-        digest = digest_value(("value", str(declared), own))
+        own = with_arrays(value, _own)
+        digest = digest_value(("value", str(declared), plain(own)))
     except TypeError as error:
         raise InputError(entry.name, str(error)) from None
 
     def load() -> Any:
         try:
             return declared.coerce(own)
+        except DocumentError as error:
+            if all(problem.place is not None for problem in error.problems):
+                raise
+            raise InputError(entry.name, str(error)) from None
         except (ValueError, TypeError) as error:
             raise InputError(entry.name, str(error)) from None
 
     return Bound(entry.name, digest, type(value).__name__, load)
 
 
-def _own(value: Any) -> Any:
-    """The same value, with copies of the arrays, at any depth, that somebody else may write to."""
-    if all(_settled(array) for _, array in arrays_in(value)):
-        return value
-    if isinstance(value, np.ndarray):
-        return value if _settled(value) else value.copy()
-    if isinstance(value, Mapping):
-        return {key: _own(item) for key, item in value.items()}
-    if isinstance(value, tuple) and hasattr(value, "_make"):
-        return value._make(_own(item) for item in value)
-    if isinstance(value, list | tuple):
-        return type(value)(_own(item) for item in value)
-    owned = copy.copy(value)
-    for part in fields(value):
-        object.__setattr__(owned, part.name, _own(getattr(value, part.name)))
-    return owned
+def _own(array: np.ndarray) -> np.ndarray:
+    """The same array where nobody can write to it, else a copy."""
+    return array if _settled(array) else array.copy()
 
 
 def _settled(array: np.ndarray) -> bool:
@@ -193,6 +198,10 @@ def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:
         except (OSError, ValueError):  # a name that no file could have
             continue
     raise UnreadableFile(name, f"no such file beside the graph (default of input {entry.name!r}, {entry.place})")
+
+
+def _is_model(declared: PortType) -> bool:
+    return any(hasattr(atom, "model_fields") for atom in declared.alternatives)
 
 
 def _coercible(declared: PortType) -> bool:

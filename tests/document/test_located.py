@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.document.located import MAX_DEPTH, Map, Seq, parse, scalar
+from graphface.document.located import MAX_DEPTH, Map, Seq, parse
+from graphface.document.scalars import scalar
 from graphface.errors import DocumentError, Problem
 from graphface.place import Place, Source
 
