@@ -98,7 +98,7 @@ _FILES = {
 }
 """What reads and writes the types that files can hold: constants of `graphface.nodes.io.files`."""
 
-pack = Pack(
+pack: Pack = Pack(
     name="graphface",
     graphs="graphface.graphs",
     assets="graphface.nodes.landmarks.weights:ASSETS graphface.nodes.masks.weights:ASSETS",
