@@ -29,7 +29,7 @@ class Map(dict[str, Any]):
 
     def __init__(self, place: Place) -> None:
         super().__init__()
-        self.place = place
+        self.place: Place = place
         self._key_places: dict[str, Place] = {}
         self._value_places: dict[str, Place] = {}
 
@@ -52,7 +52,7 @@ class Seq(list[Any]):
 
     def __init__(self, place: Place) -> None:
         super().__init__()
-        self.place = place
+        self.place: Place = place
         self._item_places: list[Place] = []
 
     def item_place(self, index: int) -> Place:
