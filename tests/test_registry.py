@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from graphface import Pack, Registry, node
+from graphface import GraphfaceWarning, Pack, Registry, node
 from graphface.errors import PluginError, UnknownOperator, UnknownType
 
 PLUGIN = '''
@@ -162,3 +162,11 @@ class TestTypes:
         with pytest.raises(UnknownType) as caught:
             registry.type("Gird")
         assert caught.value.nearest[0] == "Grid"
+
+
+class TestSchemas:
+    def test_of_packs(self) -> None:
+        """Kinds of files that packs describe; what cannot be found is left out with a warning."""
+        packs = [Pack("a", {}, schemas={"thing": "toys:Pair", "lost": "toys:Lost"}), Pack("b", {})]
+        with pytest.warns(GraphfaceWarning, match="toys:Lost"):
+            assert list(Registry(packs).schemas()) == ["thing"]

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from graphface.document.located import Map, Seq, file_source, parse, plain
+from graphface.document.located import Map, Seq, file_source, parse
 from graphface.errors import Problem, nearest_names
 from graphface.place import Place, Source
 
@@ -34,8 +34,7 @@ _NODE = ("use", "in", "with", "doc")
 class Setting:
     """A value and the place, or the flag, that set it.
 
-    The default of an input is kept with its positions (`Map`, `Seq`) for types whose mistakes are shown where they are;
-    `plain` leaves them away.
+    A mapping or list keeps its positions inside (`Map`, `Seq`) until it is used, when `plain` leaves them away.
     """
 
     value: Any
@@ -133,7 +132,7 @@ def read_overlay(entries: Any, place: Place, *, settings_only: bool) -> tuple[di
         elif not isinstance(body, Map):
             problems.append(Problem(f"expected a mapping for node {name!r}", entries.value_place(name)))
         elif settings_only:
-            node.settings = {key: Setting(plain(value), body.key_place(key)) for key, value in body.items()}
+            node.settings = {key: Setting(value, body.key_place(key)) for key, value in body.items()}
         else:
             problems += _read_node(body, node)
         found[name] = node
@@ -247,7 +246,7 @@ def _read_node(body: Map, node: NodeEntry) -> Iterator[Problem]:
         yield Problem("'in' maps ports to the names plugged into them", body.value_place("in"))
     settings = body.get("with")
     if isinstance(settings, Map):
-        node.settings = {key: Setting(plain(value), settings.key_place(key)) for key, value in settings.items()}
+        node.settings = {key: Setting(value, settings.key_place(key)) for key, value in settings.items()}
     elif settings is not None:
         yield Problem("'with' maps parameters to their values", body.value_place("with"))
 
