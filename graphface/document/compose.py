@@ -34,6 +34,7 @@ from graphface.errors import DocumentError, Problem, nearest_names
 from graphface.place import Place
 
 MAX_NODES = 2_000_000
+"""Graphs in graphs multiply what their files say."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,6 @@ class _Composer:
         scope = self._expand(document, "", None, {}, flags, ())
         self._check_choices()
         return Composition(
-            source=document.source,
             path=document.path,
             name=document.name or (document.path.stem if document.path else "graph"),
             doc=document.doc,
@@ -87,7 +87,6 @@ class _Composer:
             variants=sorted(self._declared["variant"]),
             profiles=sorted(self._declared["profile"]),
             scope=scope,
-            files=self._files.paths,
             problems=self._problems,
         )
 

@@ -84,9 +84,8 @@ class InputEntry:
 
 @dataclass
 class Document:
-    """One graph file."""
+    """One graph file; `path` is None for a text."""
 
-    source: Source
     path: Path | None
     name: str = ""
     doc: str = ""
@@ -105,13 +104,13 @@ def read_document(path: Path) -> tuple[Document, list[Problem]]:
         UnreadableFile: there is no such file, it is not UTF-8 text, or it is too large.
         DocumentError: it is not YAML.
     """
-    return parse_document(file_source(path), path)
+    return parse_document(file_source(path))
 
 
-def parse_document(source: Source, path: Path | None = None) -> tuple[Document, list[Problem]]:
+def parse_document(source: Source) -> tuple[Document, list[Problem]]:
     """As `read_document`, from a text."""
     tree, problems = parse(source)
-    document = Document(source, path)
+    document = Document(source.path)
     if not isinstance(tree, Map):
         return document, [*problems, Problem("a graph file is a mapping that begins with 'graphface: 1'", source.start)]
     return document, problems + list(_read_top(tree, document))

@@ -1,4 +1,4 @@
-"""YAML text to plain data that remembers where every key and value stood.
+"""YAML text to plain data that remembers where every key and value stands.
 
 PyYAML's C parser yields events; the tree is built from them here instead of by `yaml.compose`, for two reasons: depth
 and alias expansion are bounded while reading (a 10-line alias bomb expands to gigabytes, and composing is recursive),
@@ -24,7 +24,7 @@ MAX_ALIASED_VALUES = 100_000
 
 
 class Map(dict[str, Any]):
-    """A YAML mapping that knows where it, its keys and its values stood."""
+    """A YAML mapping that knows where it, its keys and its values stand."""
 
     __slots__ = ("_key_places", "_value_places", "place")
 
@@ -47,7 +47,7 @@ class Map(dict[str, Any]):
 
 
 class Seq(list[Any]):
-    """A YAML sequence that knows where it and its items stood."""
+    """A YAML sequence that knows where it and its items stand."""
 
     __slots__ = ("_item_places", "place")
 
