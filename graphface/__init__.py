@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.packs import Pack
     from graphface.registry import Registry
+    from graphface.values.files import Files
+    from graphface.values.parts import register_parts
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -54,6 +56,7 @@ _HOMES = {
     "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
+    "Files": "values.files",
     "Graph": "facade",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
@@ -72,6 +75,7 @@ _HOMES = {
     "UsageError": "errors",
     "load": "facade",
     "read_yaml": "document.typed_yaml",
+    "register_parts": "values.parts",
     "validated": "document.typed_yaml",
     "warn": "fallback",
 }
@@ -83,6 +87,7 @@ __all__ = [
     "DeclarationError",
     "DocumentError",
     "Evaluator",
+    "Files",
     "Formerly",
     "Graph",
     "GraphfaceError",
@@ -104,6 +109,7 @@ __all__ = [
     "load",
     "node",
     "read_yaml",
+    "register_parts",
     "validated",
     "warn",
 ]

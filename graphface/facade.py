@@ -78,7 +78,7 @@ class Graph(WiredGraph):
             InputError, UnreadableFile: an input is missing or does not fit. RunFailed: a node failed.
         """
         evaluator = evaluator if evaluator is not None else shared_evaluator()
-        return evaluator.run(request(self, inputs, outputs, evaluator.last_keys(self)))
+        return evaluator.run(request(self, inputs, outputs))
 
     def request(self, inputs: Mapping[str, Any] | None = None, outputs: Iterable[str] | None = None) -> Request:
         """What an evaluator runs, and what can be planned and explained; see `graphface.graph.request`."""

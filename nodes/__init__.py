@@ -16,7 +16,7 @@ _MODULES = {
     "export": "textured",
     "masks": "face geometric features cue cued_hair hair classify network override",
     "matting": "none guided closed_form knn",
-    "regions": "nine features",
+    "regions": "nine",
     "intrinsic": "intensity retinex multiscale_retinex bilateral log_tv l1_flatten bell2014",
     "albedo": "shadow_color",
     "metrics": "operators",
@@ -24,8 +24,8 @@ _MODULES = {
     "sh": "fit render rotate from_environment to_environment ball",
     "detail": "additive multiplicative none split",
     "detail.edit": "bands wrinkles shine",
-    "render": "samples shade shadows surroundings spread background head skin specular hair_shine response composite "
-    "relit",
+    "render": "samples shade shadow_maps surroundings spread background head skin specular hair_shine response "
+    "composite relit",
     "light": "scene panorama",
     "scatter": "none gaussian screen_space",
     "transfer": "mask paint detail recolored",
@@ -75,6 +75,29 @@ _TYPES = (
     "Visibility",
 )
 
+_FILES = {
+    "Albedo": "ALBEDO",
+    "Depth": "DEPTH",
+    "Detail": "DETAIL",
+    "Environment": "ENVIRONMENT",
+    "Gain": "GAIN",
+    "Image": "IMAGE",
+    "Judgements": "JUDGEMENTS",
+    "LabelWeights": "LABEL_WEIGHTS",
+    "Landmarks": "LANDMARKS",
+    "Mask": "MASK",
+    "Mesh": "MESH",
+    "MorphableModel": "MODEL",
+    "Normals": "NORMALS",
+    "Pins": "PINS",
+    "Representation": "REPRESENTATION",
+    "Scene": "SCENE",
+    "Shading": "SHADING",
+    "Texture": "TEXTURE",
+    "TexturedMesh": "TEXTURED_MESH",
+}
+"""What reads and writes the types that files can hold: constants of `graphface.nodes.io.files`."""
+
 pack = Pack(
     name="graphface",
     graphs="graphface.graphs",
@@ -88,5 +111,6 @@ pack = Pack(
         "LabelWeights": "graphface.nodes.masks.label_weights:LabelWeights",
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
     },
+    files={name: f"graphface.nodes.io.files:{constant}" for name, constant in _FILES.items()},
     schemas={"scene": "graphface.nodes.types:Scene"},
 )

@@ -1,7 +1,7 @@
-"""Albedo, shading and detail put together again.
+"""Albedo, shading and detail map put together to a picture.
 
-`rendering` is what every detail map is measured against, `applied` puts a map onto another rendering, and `recombined`
-keeps the result within what a picture can show.
+`rendering` is what every detail map is measured against, `applied` puts a detail map onto another rendering, and
+`recombined` keeps the result in the range that a picture can show.
 """
 
 from __future__ import annotations
@@ -12,9 +12,29 @@ from graphface.nodes.color import in_three_channels
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
 
+_BLACK, _WHITE = np.float32(0), np.float32(1)
+
+
+_LEAST_HEADROOM = 1e-6
+"""Headroom that every value has at least, because it is divided by."""
+
+
+_SPARSE = 8
+"""If fewer than one value in so many lies beyond the knee, only those are computed."""
+
 
 def rendering(albedo: Albedo, shading: Shading) -> FloatArray:
-    """rho(x) s(x), H x W x 3, for a grey (H x W) or colored (H x W x 3) shading."""
+    """rho(x) SH(n(x), theta), the reconstruction I_e(x) without details (paper, equation 3).
+
+    Args:
+        albedo: rho, float32 H x W x 3. shading: float32 H x W or H x W x 3.
+
+    Returns:
+        float32 H x W x 3, a new array.
+
+    >>> rendering(np.full((1, 1, 3), 0.5, np.float32), np.full((1, 1), 0.5, np.float32))
+    array([[[0.25, 0.25, 0.25]]], dtype=float32)
+    """
     if shading.ndim == 3:
         return albedo * shading
     rendered = in_three_channels(shading)
@@ -23,83 +43,85 @@ def rendering(albedo: Albedo, shading: Shading) -> FloatArray:
 
 
 def applied(detail: DetailMap, rendered: FloatArray) -> FloatArray:
-    """The picture that a detail map makes of a rendering, H x W x 3, unbounded; see `DetailMap` for the equation.
+    """The picture that a detail map makes of a rendering, by the equation in `DetailMap`.
 
-    `rendered` is used up: its memory serves as scratch.
+    Args:
+        rendered: float32 H x W x 3; overwritten.
+
+    Returns:
+        float32 H x W x 3, not limited to [0, 1].
+
+    >>> applied(DetailMap(np.full((1, 1, 3), 0.25, np.float32)), np.full((1, 1, 3), 0.5, np.float32))
+    array([[[0.75, 0.75, 0.75]]], dtype=float32)
     """
-    beyond = None
+    above_pivot = None
     picture = rendered
     if detail.pivot is not None:
         picture = np.minimum(rendered, detail.pivot)
-        beyond = np.subtract(rendered, picture, out=rendered)
+        above_pivot = np.subtract(rendered, picture, out=rendered)
     if detail.gain is not None:
         picture *= detail.gain
     picture += detail.offset
     if detail.ceiling is not None:
         np.minimum(picture, detail.ceiling, out=picture)
-    if beyond is not None:
-        picture += beyond
+    if above_pivot is not None:
+        picture += above_pivot
     return picture
 
 
-_LEAST_ROOM = 1e-6
-"""Room that a value is taken to have at least, so that it can be divided by."""
-
-
 def recombined(photo: Image, albedo: Albedo, shading: Shading, detail: DetailMap, shoulder: float = 0.5) -> Image:
-    """A picture from its parts; see `blend.recombine`."""
+    """A picture from its parts; see `blend.recombine`.
+
+    Args:
+        photo: the picture before the edit; the change from it is limited. Its alpha and file format are kept.
+        shoulder: 0 to 1, see `_soft_limited`.
+    """
     pixels = np.empty(photo.pixels.shape, np.float32)
 
     def strip(rows: slice) -> None:
-        picture = applied(_strip(detail, rows), rendering(albedo[rows], shading[rows]))
-        _bent(picture, photo.pixels[rows], shoulder, out=pixels[rows])
+        picture = applied(_rows_of(detail, rows), rendering(albedo[rows], shading[rows]))
+        _soft_limited(picture, photo.pixels[rows], shoulder, out=pixels[rows])
 
     by_strips(strip, pixels.shape)
     return photo.with_pixels(pixels)
 
 
-def _strip(detail: DetailMap, rows: slice) -> DetailMap:
+def _rows_of(detail: DetailMap, rows: slice) -> DetailMap:
     parts = {name: getattr(detail, name) for name in ("gain", "pivot", "ceiling")}
     return DetailMap(detail.offset[rows], **{name: part[rows] for name, part in parts.items() if part is not None})
 
 
-def _bent(picture: FloatArray, before: FloatArray, shoulder: float, out: FloatArray) -> None:
-    """The new picture, its change soft-limited to the room that each value had left to 1 (or to 0, downwards).
+def _soft_limited(picture: FloatArray, before: FloatArray, shoulder: float, out: FloatArray) -> None:
+    """The new picture, with its change limited to the headroom that each value had up to 1, or down to 0.
 
-    Up to the share 1 - shoulder of its room r a change passes as it is; beyond, it nears r exponentially, without a
-    kink. Each channel has its own room, so bright colors drift to white as on film. (One factor for all channels
-    keeps the hue, and was rejected: where one channel is full already the others are held back in patches.)
+    A change passes unaltered up to the share 1 - shoulder of the headroom. Beyond this knee the curve bends without a
+    kink and approaches the limit exponentially, like the shoulder of a film's characteristic curve. Each channel has
+    its own headroom, so bright colors drift to white as on film. One factor for all channels would keep the hue; it was
+    rejected, because where one channel is clipped already the others are held back in patches.
     """
     black, white = _limits(before)
     if shoulder == 0:
         np.maximum(picture, black, out=out)
         np.minimum(out, white, out=out)
         return
-    straight = np.float32(1 - shoulder)
+    linear = np.float32(1 - shoulder)
     knee = before * np.float32(shoulder)
-    np.maximum(picture, knee if black is _BLACK else knee + straight * black, out=out)
-    knee += straight * white
+    np.maximum(picture, knee if black is _BLACK else knee + linear * black, out=out)
+    knee += linear * white
     np.minimum(out, knee, out=out)
-    differs = picture != out
-    count = np.count_nonzero(differs)
-    if count * _FEW > picture.size:
-        out[...] = _shouldered(picture, out, before, black, white, shoulder)
+    beyond = picture != out
+    count = np.count_nonzero(beyond)
+    if count * _SPARSE > picture.size:
+        out[...] = _rolled_off(picture, out, before, black, white, shoulder)
     elif count:
-        places = np.flatnonzero(differs)
+        places = np.flatnonzero(beyond)
         few, knees, start = (values.reshape(-1).take(places) for values in (picture, out, before))
         low, high = (limit.reshape(-1).take(places) if limit.ndim else limit for limit in (black, white))
-        out.reshape(-1)[places] = _shouldered(few, knees, start, low, high, shoulder)
-
-
-_FEW = 8
-"""Where fewer than one value in so many is beyond the knee, those are picked out."""
-
-
-_BLACK, _WHITE = np.float32(0), np.float32(1)
+        out.reshape(-1)[places] = _rolled_off(few, knees, start, low, high, shoulder)
 
 
 def _limits(before: FloatArray) -> tuple[FloatArray | np.float32, FloatArray | np.float32]:
-    """0 and 1; what the photo has beyond them it may keep."""
+    """0 and 1, extended to the photo's own values where it exceeds them."""
     black: FloatArray | np.float32 = _BLACK
     white: FloatArray | np.float32 = _WHITE
     if before.size and before.min() < 0:
@@ -109,7 +131,7 @@ def _limits(before: FloatArray) -> tuple[FloatArray | np.float32, FloatArray | n
     return black, white
 
 
-def _shouldered(
+def _rolled_off(
     picture: FloatArray,
     knee: FloatArray,
     before: FloatArray,
@@ -117,22 +139,23 @@ def _shouldered(
     white: FloatArray | np.float32,
     shoulder: float,
 ) -> FloatArray:
-    """Knee + R (1 - exp(-e / R)) for an excess e of the picture over the knee; R, the room there, has the sign of e.
+    """knee + h (1 - exp(-e / h)) for an excess e of the picture over the knee; the headroom h has the sign of e.
 
-    One formula serves both sides, for selecting one of two (`np.where`) costs as much as a dozen multiplications.
+    One formula serves both signs, because to select one of two results (`np.where`) takes as long as a dozen
+    multiplications.
     """
     import cv2
 
     excess = np.subtract(knee, picture)  # -e
-    # R = shoulder * (limit - before), kept away from 0 on its own side.
+    # h = shoulder * (limit - before), kept away from 0 on its own side.
     upwards = cv2.threshold(excess, 0, 1, cv2.THRESH_BINARY_INV)[1]
-    room = np.asarray(upwards, np.float32).reshape(excess.shape)
-    room *= np.float32(shoulder) * (white - black) + np.float32(2 * _LEAST_ROOM)
-    room += np.float32(shoulder) * black - np.float32(_LEAST_ROOM)
-    room -= before * np.float32(shoulder)
-    excess /= room
+    headroom = np.asarray(upwards, np.float32).reshape(excess.shape)
+    headroom *= np.float32(shoulder) * (white - black) + np.float32(2 * _LEAST_HEADROOM)
+    headroom += np.float32(shoulder) * black - np.float32(_LEAST_HEADROOM)
+    headroom -= before * np.float32(shoulder)
+    excess /= headroom
     np.expm1(excess, out=excess)
-    excess *= room
+    excess *= headroom
     np.subtract(knee, excess, out=excess)
     np.maximum(excess, black, out=excess)
     return np.minimum(excess, white, out=excess)

@@ -1,20 +1,34 @@
-"""The color of a glowing body: kelvin to linear RGB."""
+"""The color of a black body: kelvin to linear RGB."""
 
 from __future__ import annotations
 
 NEUTRAL = 6500.0
-"""Kelvin that are plain white here; lower is warmer, higher is bluer."""
+"""Kelvin that are white here; lower temperatures are redder, higher ones bluer."""
+
+
+_RANGE = (1667.0, 25000.0)
+"""Kelvin in which the splines of `_planckian_locus` hold."""
 
 
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
-"""Rec. 709."""
+"""Weights of linear R, G and B in the luminance (ITU-R BT.709)."""
 
 
 def kelvin_color(kelvin: float) -> tuple[float, float, float]:
-    """Linear Rec. 709 RGB of a black body, luminance 1, white at 6500 K; 1667 to 25000 K, never negative.
+    """Linear Rec. 709 RGB of a black body, of luminance 1, relative to the one at 6500 K.
 
-    The Planckian locus in xy follows Kim et al. 2002 (US patent 7024034, cubic splines good to 1e-3). Each channel is
-    divided by its value at 6500 K, since the photo is balanced for what it calls white.
+    Each channel is divided by its value at 6500 K, because the photo's white balance makes its own light white.
+
+    Args:
+        kelvin: clamped to 1667..25000.
+
+    Returns:
+        Red, green, blue; not negative. White at 6500 K.
+
+    >>> [round(value, 3) for value in kelvin_color(6500)]
+    [1.0, 1.0, 1.0]
+    >>> [round(value, 2) for value in kelvin_color(2856)]  # an incandescent lamp, CIE illuminant A
+    [1.78, 0.85, 0.23]
     """
     color = [max(value, 0.0) / neutral for value, neutral in zip(_rgb(kelvin), _rgb(NEUTRAL), strict=True)]
     luminance = sum(weight * value for weight, value in zip(_LUMINANCE, color, strict=True))
@@ -23,9 +37,12 @@ def kelvin_color(kelvin: float) -> tuple[float, float, float]:
 
 
 def _rgb(kelvin: float) -> tuple[float, float, float]:
-    """Linear Rec. 709 RGB of the locus at luminance 1; blue is below 0 under 1900 K, outside what RGB can show."""
-    x, y = _locus(min(max(kelvin, 1667.0), 25000.0))
-    big_x, big_z = x / y, (1 - x - y) / y  # y is above 0.3 on the whole locus
+    """Linear Rec. 709 RGB of a black body of luminance 1. Below 1900 K blue is negative: the color is out of gamut.
+
+    From XYZ by the inverse matrix of IEC 61966-2-1; Y is 1.
+    """
+    x, y = _planckian_locus(min(max(kelvin, _RANGE[0]), _RANGE[1]))
+    big_x, big_z = x / y, (1 - x - y) / y  # y is above 0.25 on the whole locus
     return (
         3.2406 * big_x - 1.5372 - 0.4986 * big_z,
         -0.9689 * big_x + 1.8758 + 0.0415 * big_z,
@@ -33,7 +50,12 @@ def _rgb(kelvin: float) -> tuple[float, float, float]:
     )
 
 
-def _locus(kelvin: float) -> tuple[float, float]:
+def _planckian_locus(kelvin: float) -> tuple[float, float]:
+    """CIE 1931 (x, y) of a black body: cubic splines of Kim et al., US patent 7024034 (2002), within 1e-3.
+
+    >>> [round(value, 3) for value in _planckian_locus(2856)]  # CIE illuminant A is at (0.4476, 0.4074)
+    [0.447, 0.408]
+    """
     t = 1e3 / kelvin
     if kelvin <= 4000:
         x = ((-0.2661239 * t - 0.2343589) * t + 0.8776956) * t + 0.179910

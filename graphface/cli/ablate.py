@@ -133,9 +133,9 @@ def read_cases(pairs: list[str]) -> list[Mapping[str, Any]]:
 def _truth(graph: Graph, declared: Any, case: Mapping[str, Any], where: Path) -> Any:
     """The true output of a case, read as the output's type."""
     from graphface.errors import UnreadableFile, UsageError
-    from graphface.values.port_types import reader_of
 
-    reader = reader_of(declared)
+    files = graph.registry.files(declared)
+    reader = files.read if files is not None else None
     if reader is None:
         raise UsageError(f"--truth: a {declared} cannot be read from a file")
     if where.is_file():

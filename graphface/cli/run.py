@@ -131,7 +131,7 @@ def run_once(
     asked = graph.request(given, files)
     types = {name: graph.type_of(target) for name, target in asked.targets.items()}
     for name, path in files.items():
-        check_output(path, types[name])
+        check_output(path, types[name], graph.registry.files)
     _check_kept(files.values(), given.values())
     if trace is not None:
         check_folder(trace)
@@ -148,7 +148,7 @@ def run_once(
             if trace is not None:
                 tracer.write(trace)
     for name, path in files.items():
-        write_output(result[name], types[name], path, text=graph.provenance())
+        write_output(result[name], types[name], path, graph.registry.files, text=graph.provenance())
     return result.records
 
 
@@ -173,7 +173,7 @@ def run_map(
     first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
     targets = graph.targets(first)
     for name, path in first.items():
-        check_output(path, graph.type_of(targets[name]))
+        check_output(path, graph.type_of(targets[name]), graph.registry.files)
     failed, total = [], 0
     with ProgressBar() as bar:
         evaluator.observers = (bar,)
@@ -184,7 +184,8 @@ def run_map(
                 continue
             for name, path in output_files(graph, output, made.inputs).items():
                 check_folder(path)
-                write_output(made.result[name], graph.type_of(targets[name]), path, text=graph.provenance())
+                kind = graph.type_of(targets[name])
+                write_output(made.result[name], kind, path, graph.registry.files, text=graph.provenance())
             records += made.result.records
     if failed:
         raise MapFailed(failed, total)

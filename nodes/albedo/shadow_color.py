@@ -16,6 +16,7 @@ from pydantic import Field
 from graphface import node
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean, in_three_channels
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, FloatArray, Image, Landmarks, Mask
 
@@ -43,21 +44,13 @@ def shadow_colour(
         reach: of what is around, in inter-ocular distances.
         resolution: pixels per inter-ocular distance of the copy on which averages are taken.
     """
-    import cv2
-
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    height, width = albedo.shape[:2]
-    size = (max(1, round(width * scale)), max(1, round(height * scale)))
-    sigma = max(reach * landmarks.interocular * scale, 0.5)
-    small = np.asarray(cv2.resize(photo.pixels, size, interpolation=cv2.INTER_AREA), np.float32)
-    seen = cv2.resize(mask, size, interpolation=cv2.INTER_AREA) + _LEAST
-    light, pure = _mean_and_saturation(small)
+    copy = face_scale(landmarks, albedo.shape, resolution)
+    sigma = max(reach * copy.interocular, 0.5)
+    seen = copy.down(mask) + _LEAST
+    light, pure = _mean_and_saturation(copy.down(photo.pixels))
     weight = seen * np.square(light) + np.float32(1e-9)
     sums = blurred(np.dstack([weight, weight * light, weight * pure]), sigma)
-    usual, limit = (
-        np.asarray(cv2.resize(sums[..., n] / sums[..., 0], (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
-        for n in (1, 2)
-    )
+    usual, limit = (copy.up(sums[..., n] / sums[..., 0]) for n in (1, 2))
     result = np.empty_like(albedo)
 
     def strip(rows: slice) -> None:

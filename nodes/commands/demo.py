@@ -9,7 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from graphface import Result
-    from graphface.nodes.commands.sheet import Picture
+    from graphface.nodes.bench.contact_sheet import Picture
 
 SCENES = ("window-left", "rim-right", "red-blue")
 _STAGES = {
@@ -32,9 +32,10 @@ def demo(
     import os
 
     from graphface import Evaluator, MemoryTier, load
-    from graphface.nodes.io.image_write import write_picture
+    from graphface.nodes.bench.shipped import astronaut
+    from graphface.nodes.io.image_write import write_image, write_picture
     from graphface.report.terminal import ProgressBar, print_times, print_warnings
-    from graphface.values.writing import make_folder, write_output
+    from graphface.values.writing import make_folder
 
     make_folder(folder)
     given = photo if photo is not None else astronaut()
@@ -49,7 +50,7 @@ def demo(
             relit[scene] = results["image"]
     assert results is not None
     for scene, image in relit.items():
-        write_output(image, graph.type_of(graph.outputs["image"]), folder / f"{scene}.png")
+        write_image(image, folder / f"{scene}.png")
     write_picture(_sheet(results, relit), folder / "contact-sheet.png")
     print_times(records, title=f"{len(SCENES)} scenes")
     print_warnings(results.warnings)
@@ -58,7 +59,7 @@ def demo(
 
 def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
     """The photo whole, every stage around the face."""
-    from graphface.nodes.commands.sheet import around_face, contact_sheet, mesh_overlay, picture_of
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet, mesh_overlay, picture_of
     from graphface.nodes.types import Image
 
     photo, landmarks = results["photo"], results["face.landmarks"]
@@ -68,10 +69,3 @@ def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
     cells += [(caption, picture_of(results[name], kind)[near]) for caption, (name, kind) in _STAGES.items()]
     cells += [(f"relit: {scene}", Image.picture(image)[near]) for scene, image in relit.items()]
     return contact_sheet(cells, columns=4)
-
-
-def astronaut() -> Any:
-    """The photograph that scikit-image carries: uint8, 512 x 512 x 3."""
-    from skimage.data import astronaut
-
-    return astronaut()  # type: ignore[no-untyped-call]

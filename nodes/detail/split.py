@@ -1,15 +1,13 @@
 """A detail map that is a ratio where the light falls and a difference where it rises.
 
 A dark residual may be a brow, a crease or a cast shadow, a bright one a highlight or a freckle; a single photo does not
-say which. Measured on path-traced heads (scale-invariant PSNR in dB, known lights, no shadows; `graphface bench relight
-OUT --source left45 --method ...`), what matters is which way the light goes, not the frequency band:
+say which. What matters is which way the light goes, measured with the shipped graph (`graphface bench lights`;
+scale-invariant PSNR in dB on path-traced heads, scale-invariant squared error on photographs of the Yale set):
 
-    source -> target                      additive   ratio   split by band at 0.1   this
-    frontal -> six lights                    24.98   25.35                  25.11   25.41
-    left45, top, left80_hard -> others       22.49   21.07                  21.49   22.65
-
-With the shipped graph (`graphface bench lights`): heads 26.04, 26.62 and this 26.68 dB; photographs of the Yale set,
-scale-invariant squared error, 0.0146, 0.0126 and this 0.0123.
+    source -> target                          additive    ratio     this
+    frontal -> six lights                        28.27    28.86    28.89
+    left45 -> six lights (--source left45)       25.81    24.62    26.34
+    frontal -> eight lights (--truth yale)      0.0137   0.0119   0.0116
 
 Where light is taken away everything in the pixel loses it, highlights included, and a difference leaves them glowing:
 the ratio wins. Where light is added the ratio multiplies darkness whose cause is unknown, by factors without bound (the

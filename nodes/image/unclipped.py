@@ -15,6 +15,7 @@ from pydantic import Field
 from graphface import node
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import FloatArray, Image, Landmarks
 
@@ -53,21 +54,19 @@ def unclipped(
     pixels = photo.pixels
     if pixels.size == 0 or pixels.max() <= begin:
         return photo
-    scale = min(1.0, resolution / max(landmarks.interocular, 1e-3))
-    size = (max(1, round(photo.width * scale)), max(1, round(photo.height * scale)))
+    copy = face_scale(landmarks, pixels.shape, resolution)
     span = np.float32(max(end - begin, 1e-3))
 
     def trust(values: FloatArray) -> FloatArray:
         return np.asarray(np.clip((np.float32(begin) + span - values) / span, 0, 1), np.float32)
 
-    small = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), np.float32)
+    small = copy.down(pixels)
     # Near to the highlight in brightness is near in kind; what has a clipped channel has no color to give.
     weight = (trust(small).min(axis=2) * np.square(channel_mean(small)) + np.float32(1e-6))[..., None]
     sums = np.concatenate([small * weight, weight], axis=2)
-    sigma = max(reach * landmarks.interocular * scale, 0.5)
+    sigma = max(reach * copy.interocular, 0.5)
     sums = blurred(sums, sigma) + np.float32(_FAR_SHARE) * blurred(sums, _FAR * sigma)
-    color = sums[..., :3] / sums[..., 3:]
-    around = np.asarray(cv2.resize(color, (photo.width, photo.height), interpolation=cv2.INTER_LINEAR), np.float32)
+    around = copy.up(sums[..., :3] / sums[..., 3:])
     raised = pixels.copy()
 
     def reconstruct(rows: slice) -> None:

@@ -10,11 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.face_scale import face_scale
 from graphface.nodes.head_shape import pose_of
 from graphface.nodes.types import FloatArray, Landmarks
 
 REACH = (3.0, 2.8, 3.2)
 """How far hair is looked for to the sides, above and below of the face's middle, in inter-ocular distances."""
+
+
+_LARGEST = 1024
+"""Sides of a window at working size, pixels."""
 
 
 @dataclass(frozen=True)
@@ -83,10 +88,8 @@ def window_about(landmarks: Landmarks, shape: tuple[int, ...], resolution: int) 
         side = above = below = max(side, above, below)
     left, right = _cut(x - side, x + side, width)
     top, bottom = _cut(y - above, y + below, height)
-    scale = min(1.0, resolution / unit, 1024 / max(right - left, bottom - top))
-    return Window(
-        top, bottom, left, right, max(1, round((bottom - top) * scale)), max(1, round((right - left) * scale))
-    )
+    height, width = face_scale(landmarks, (bottom - top, right - left), resolution, most=_LARGEST).size
+    return Window(top, bottom, left, right, height, width)
 
 
 def _cut(low: float, high: float, size: int) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.face_scale import FaceScale, face_scale
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
 
@@ -35,23 +36,16 @@ def guided(
             and is no nearer to the truth (hair on path-traced heads: overlap 0.956 at 1e-4, 0.958 at 1e-3).
         resolution: pixels per inter-ocular distance that the linear functions are found at.
     """
-    import cv2
-
     unit = max(landmarks.interocular, 1e-3)
     part = _busy(labels, round(2 * radius * unit) + 2)
     if part is None:
         return labels
     guide = np.clip(np.nan_to_num(photo.pixels[part]), 0, 1).astype(np.float32, copy=False)
     alphas = np.stack([labels.face[part], labels.hair[part]], axis=2)
-    height, width = guide.shape[:2]
-    scale = min(1.0, resolution / unit)
-    size = (max(1, round(width * scale)), max(1, round(height * scale)))
-    small_guide, small_alphas = (
-        np.asarray(cv2.resize(a, size, interpolation=cv2.INTER_AREA), np.float32) for a in (guide, alphas)
-    )
-    side = 2 * max(1, round(radius * unit * scale)) + 1
-    functions = _linear_functions(small_guide, small_alphas.reshape(*size[::-1], 2), side, ridge)
-    drawn = np.clip(_applied(functions, guide), 0, 1)
+    copy = face_scale(landmarks, guide.shape, resolution)
+    side = 2 * max(1, round(radius * copy.interocular)) + 1
+    functions = _linear_functions(copy.down(guide), copy.down(alphas).reshape(*copy.size, 2), side, ridge)
+    drawn = np.clip(_applied(functions, guide, copy), 0, 1)
     drawn /= np.maximum(drawn[0] + drawn[1], 1)
     face, hair = labels.face.copy(), labels.hair.copy()
     face[part], hair[part] = drawn
@@ -95,15 +89,9 @@ def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
     return np.asarray(solved / np.maximum(determinant, 1e-30)[..., None, None], np.float32)
 
 
-def _applied(functions: FloatArray, guide: FloatArray) -> FloatArray:
+def _applied(functions: FloatArray, guide: FloatArray, copy: FaceScale) -> FloatArray:
     """The functions enlarged to the guide and applied to its colors: 2 x H x W."""
-    import cv2
-
-    height, width = guide.shape[:2]
-    planes = [
-        np.asarray(cv2.resize(plane, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
-        for plane in np.ascontiguousarray(np.moveaxis(functions, 2, 0))
-    ]
+    planes = [copy.up(plane) for plane in np.ascontiguousarray(np.moveaxis(functions, 2, 0))]
     channels = [np.ascontiguousarray(guide[..., c]) for c in range(3)]
     for k in range(2):
         for c in range(3):

@@ -1,4 +1,4 @@
-"""Where hair shines."""
+"""Specular highlights of hair."""
 
 from __future__ import annotations
 
@@ -9,24 +9,31 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import channel_mean
+from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.types import Image, Mask, Segmentation
 
-Percent = Annotated[float, Field(ge=0, le=100)]
+Percentile = Annotated[float, Field(ge=0, le=100)]
+
+
+_LEAST_CONTRAST = 0.02
+"""Least difference of intensity between dull and bright hair."""
 
 
 @node("render.hair_shine")
-def hair_shine(photo: Image, labels: Segmentation, mask: Mask, *, dull: Percent = 50.0, bright: Percent = 97.0) -> Mask:
-    """Where hair is bright, which is where it shines: 0 elsewhere, up to the share of hair at its brightest pixels.
+def hair_shine(
+    photo: Image, labels: Segmentation, mask: Mask, *, dull: Percentile = 50.0, bright: Percentile = 97.0
+) -> Mask:
+    """Bright pixels of hair, which are likely to be specular highlights (paper, section 4.1): 0 elsewhere.
 
     Args:
-        mask: the face by its geometry. There a bright pixel is rather a forehead taken for hair, and a patch of old
-            light amid the new would show: nothing shines where the mask is 1.
-        dull, bright: percentiles of the hair's intensity between which the answer rises from 0 to 1.
+        mask: the face by its geometry, H x W. Where it is 1 the result is 0, because a bright pixel there is more
+            likely skin that was labelled hair, and a patch of the old light would show on it.
+        dull, bright: percentiles of the hair's intensity between which the result rises from 0 to the share of hair.
     """
-    grey = channel_mean(photo.pixels)
-    of_hair = grey[labels.hair > 0.5]
-    if of_hair.size < 2:
-        return np.zeros_like(grey)
-    low, high = np.percentile(of_hair[:: max(1, of_hair.size // 20_000)], (dull, max(bright, dull)))
-    t = np.clip((grey - np.float32(low)) / np.float32(max(high - low, 0.02)), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t) * labels.hair * (1 - mask), np.float32)
+    intensity = channel_mean(photo.pixels)
+    in_hair = intensity[labels.hair > 0.5]
+    if in_hair.size < 2:
+        return np.zeros_like(intensity)
+    low, high = np.percentile(in_hair[:: max(1, in_hair.size // 20_000)], (dull, max(bright, dull)))
+    t = (intensity - np.float32(low)) / np.float32(max(high - low, _LEAST_CONTRAST))
+    return np.asarray(smoothstep(t) * labels.hair * (1 - mask), np.float32)

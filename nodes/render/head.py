@@ -1,8 +1,8 @@
-"""Light beyond the face mesh: the rest of the head and the neck as simple solids, so that they can be lit like it.
+"""The rest of the head and the neck as simple solids behind the face mesh, so that they are shaded like the face.
 
-The face models end at the hairline, the jaw and the ears; a shading that merely continues there knows no neck in the
-chin's shadow, no foot of the neck that catches the light from above, no side of the head that turns away. Solids of
-average size do, roughly.
+The face models end at the hairline, the jaw and the ears. A shading that only continues beyond them has no shadow of
+the chin on the neck, no shoulder side of the neck that is lit from above, and no side of the head that turns away from
+the light. Solids of average size have them approximately.
 """
 
 from __future__ import annotations
@@ -21,28 +21,25 @@ from graphface.nodes.render.neck import Points, Solid, grid_triangles, neck, und
 from graphface.nodes.types import Mesh
 
 _LEAST_POINTS = 100
-"""Points of FaceMesh that must be known on a mesh to say how the head stands."""
+"""FaceMesh points that must be known on a mesh to estimate the head's pose."""
 
 
-_BEHIND = 0.2
-"""How far the skull stays behind the middle of the face, as a share of its size, so that it does not poke through."""
+_LARGEST_DISTANCE = 0.2
+"""Root mean square distance from the posed mean face, in its unit, above which points are not those of FaceMesh."""
 
 
-_TEMPLE, _FREE = 0.25, 0.35
-"""Height of the temples in the mean face's frame; how far the skull stays behind the jaw, as a share of its size."""
+_FACE_GAP, _JAW_GAP = 0.2, 0.35
+"""Gap between the cranium and the middle of the face, and between the cranium and the jaw, as shares of the cranium's
+radius. Because of the gaps the cranium does not protrude through the face, and the jaw casts a shadow on the neck."""
 
 
-_NEAR, _REACH = 0.12, 0.4
-"""Angles, seen from the middle of the skull, over which the skull follows the face's rim, and after which it no longer
-does."""
+_TEMPLE_HEIGHT, _JAW_HEIGHT = 0.25, 0.05
+"""Heights in the mean face's frame: of the temples, and below which the outline of the mesh is the edge of the jaw."""
 
 
-_JAW = 0.05
-"""Height in the mean face's frame below which the rim of the mesh is the edge of the jaw."""
-
-
-_STRANGE = 0.2
-"""Root mean square distance from the posed mean face, in its unit, above which points are not FaceMesh's."""
+_KERNEL_WIDTH, _KERNEL_REACH = 0.12, 0.4
+"""Radians at the middle of the cranium: standard deviation of the kernel by which the cranium follows the face's
+outline, and the angle beyond which it keeps its own shape."""
 
 
 @node("render.head")
@@ -50,9 +47,9 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     """A face mesh with a cranium and a neck of average size behind it, in the face's own pose.
 
     Args:
-        mesh: of `geometry.*`. Where its pose is not known (`Mesh.facemesh` tells of few points, or of wrong ones) it
-            comes back as it is.
-        solids: False leaves the mesh as it is, to see what they are good for.
+        mesh: of `geometry.*`. If too few of its FaceMesh points are known to estimate the pose, or they do not look
+            like a face, it is returned as it is, with a warning.
+        solids: False returns the mesh as it is, for comparison.
 
     Returns:
         The same mesh with vertices and triangles added at the end; camera, unit and fit are the face's.
@@ -65,16 +62,16 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     if pose is None:
         warn("render.head: the mesh tells no pose of the face; light beyond it is continued without a head")
         return mesh
-    rotation, scale, middle = pose
-    own = np.where(known[:, None], (face - middle) @ rotation / scale, facemesh_topology().mean)
+    rotation, scale, origin = pose
+    in_mean_frame = np.where(known[:, None], (face - origin) @ rotation / scale, facemesh_topology().mean)
     jaw = _jaw()
-    parts = [_skull(own), neck(), underside(own[jaw], _outward(own)[jaw])]
+    parts = [_cranium(in_mean_frame), neck(), underside(in_mean_frame[jaw], _normals(in_mean_frame)[jaw])]
     vertices, normals, triangles = [mesh.vertices], [mesh.normals], [mesh.triangles]
     count = len(mesh.vertices)
-    for points, outward, faces in parts:
-        vertices.append((middle + scale * points @ rotation.T).astype(np.float32))
-        normals.append((outward @ rotation.T).astype(np.float32))
-        triangles.append((faces + count).astype(np.int32))
+    for points, directions, corners in parts:
+        vertices.append((origin + scale * points @ rotation.T).astype(np.float32))
+        normals.append((directions @ rotation.T).astype(np.float32))
+        triangles.append((corners + count).astype(np.int32))
         count += len(points)
     return replace(
         mesh,
@@ -86,7 +83,7 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
 
 
 def _face_points(mesh: Mesh) -> Points:
-    """Where the 468 points of FaceMesh lie, NaN where the mesh does not know them."""
+    """The 468 points of FaceMesh on a mesh, (468, 3); NaN where the mesh does not know them."""
     face = np.full(facemesh_topology().mean.shape, np.nan)
     if mesh.facemesh is not None and len(mesh.facemesh) == len(face):
         known = (mesh.facemesh >= 0) & (mesh.facemesh < len(mesh.vertices))
@@ -95,74 +92,82 @@ def _face_points(mesh: Mesh) -> Points:
 
 
 def _pose(points: Points, known: NDArray[np.bool_]) -> tuple[Points, float, Points] | None:
-    """Rotation, scale and origin of the mean face in the camera frame, by its known points (Umeyama 1991)."""
+    """Rotation, scale and origin of the mean face in the camera frame, by its known points.
+
+    Umeyama, Least-Squares Estimation of Transformation Parameters Between Two Point Patterns, TPAMI 1991, equations
+    40 to 42. None where they are not the points of a face.
+    """
     if len(points) < _LEAST_POINTS:
         return None
     mean = facemesh_topology().mean[known].astype(np.float64)
-    from_middle, to_middle = mean.mean(axis=0), points.mean(axis=0)
-    u, sizes, vt = np.linalg.svd((points - to_middle).T @ (mean - from_middle))
+    mean_middle, middle = mean.mean(axis=0), points.mean(axis=0)
+    u, singular, vt = np.linalg.svd((points - middle).T @ (mean - mean_middle))
     sign = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
     rotation = (u * sign) @ vt
-    scale = float((sizes * sign).sum() / max(np.square(mean - from_middle).sum(), 1e-12))
+    scale = float((singular * sign).sum() / max(np.square(mean - mean_middle).sum(), 1e-12))
     if scale <= 1e-6:
         return None
-    apart = (points - to_middle) / scale - (mean - from_middle) @ rotation.T
-    strange = float(np.sqrt(np.square(apart).sum(axis=1).mean())) > _STRANGE
-    return None if strange else (rotation, scale, to_middle - scale * rotation @ from_middle)
+    misfit = (points - middle) / scale - (mean - mean_middle) @ rotation.T
+    if float(np.sqrt(np.square(misfit).sum(axis=1).mean())) > _LARGEST_DISTANCE:
+        return None
+    return rotation, scale, middle - scale * rotation @ mean_middle
 
 
-def _outward(face: Points) -> Points:
-    """Unit normals of a face given by FaceMesh's points, (468, 3)."""
+def _normals(face: Points) -> Points:
+    """Unit normals of a face given by the points of FaceMesh, (468, 3)."""
     return vertex_normals(face, facemesh_topology().triangles).astype(np.float64)
 
 
-def _skull(face: Points) -> Solid:
-    """The ellipsoid, drawn to the rim of this face, so that no step between the two throws a shadow.
+def _cranium(face: Points) -> Solid:
+    """The ellipsoid of an average cranium, deformed to meet the outline of the face, so that no step casts a shadow.
+
+    Its radius is a kernel regression of the radii that the face asks for, by the angle seen from the middle.
 
     Args:
         face: (468, 3) in the mean face's frame.
     """
     center, axes = (np.asarray(v) for v in CRANIUM)
     points, normals, triangles = _ellipsoid(CRANIUM[0], CRANIUM[1])
-    unit, seen = (points - center) / axes, (face - center) / axes
-    size = np.linalg.norm(seen, axis=1)
-    rim = _rim()
-    inside = np.linalg.norm(face[:, None] - face[None, rim], axis=2).min(axis=1)
-    below = np.clip((_TEMPLE - face[:, 1]) / _TEMPLE, 0, 1)  # the jaw stands free of skull and neck, and shades them
-    goal = size - np.maximum(np.minimum(inside / 2, _BEHIND), _FREE * below)
-    cosine = np.clip(unit @ (seen / np.maximum(size, 1e-6)[:, None]).T, -1, 1)
-    weight = np.exp(-np.square(np.arccos(cosine) / _NEAR) / 2)
-    rest = np.exp(-((_REACH / _NEAR) ** 2) / 2)
-    scale = 1 + weight @ (goal - 1) / (weight.sum(axis=1) + rest)
-    return center + np.clip(scale, 0.5, 1.5)[:, None] * unit * axes, normals, triangles
+    directions, to_face = (points - center) / axes, (face - center) / axes
+    radius = np.linalg.norm(to_face, axis=1)
+    from_outline = np.linalg.norm(face[:, None] - face[None, _outline()], axis=2).min(axis=1)
+    below_temples = np.clip((_TEMPLE_HEIGHT - face[:, 1]) / _TEMPLE_HEIGHT, 0, 1)
+    wanted = radius - np.maximum(np.minimum(from_outline / 2, _FACE_GAP), _JAW_GAP * below_temples)
+    cosine = np.clip(directions @ (to_face / np.maximum(radius, 1e-6)[:, None]).T, -1, 1)
+    weight = np.exp(-np.square(np.arccos(cosine) / _KERNEL_WIDTH) / 2)
+    own_weight = np.exp(-((_KERNEL_REACH / _KERNEL_WIDTH) ** 2) / 2)
+    scale = 1 + weight @ (wanted - 1) / (weight.sum(axis=1) + own_weight)
+    return center + np.clip(scale, 0.5, 1.5)[:, None] * directions * axes, normals, triangles
 
 
 @cache
-def _rim() -> NDArray[np.int64]:
+def _outline() -> NDArray[np.int64]:
     """The points along the outline of the face mesh, once around; with the face to their left, seen from outside."""
     triangles = facemesh_topology().triangles
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).tolist()
-    inner = {(b, a) for a, b in sides}
-    onward = {a: b for a, b in sides if (a, b) not in inner}
-    rim = [FOREHEAD]
-    while onward[rim[-1]] != FOREHEAD:
-        rim.append(onward[rim[-1]])
-    return np.array(rim)
+    reversed_sides = {(b, a) for a, b in sides}
+    following = {a: b for a, b in sides if (a, b) not in reversed_sides}
+    outline = [FOREHEAD]
+    while following[outline[-1]] != FOREHEAD:
+        outline.append(following[outline[-1]])
+    return np.array(outline)
 
 
 @cache
 def _jaw() -> NDArray[np.int64]:
-    """The part of the rim below the ears, from the picture's left to its right."""
-    rim = _rim()  # from the middle of the forehead down one side and up the other: the jaw is one run of it
+    """The part of the outline below the ears, from the picture's left to its right."""
+    outline = _outline()  # it starts at the middle of the forehead, so the jaw is one run of it
     mean = facemesh_topology().mean
-    jaw: NDArray[np.int64] = rim[mean[rim, 1] < _JAW]
+    jaw: NDArray[np.int64] = outline[mean[outline, 1] < _JAW_HEIGHT]
     return jaw if mean[jaw[0], 0] < 0 else jaw[::-1]
 
 
 def _ellipsoid(center: tuple[float, ...], axes: tuple[float, ...], rings: int = 24, sectors: int = 48) -> Solid:
-    """Vertices, outward normals and triangles."""
-    down, around = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij")
-    unit = np.stack([np.sin(down) * np.sin(around), np.cos(down), np.sin(down) * np.cos(around)], axis=-1)
+    """Vertices, outward unit normals and triangles of an ellipsoid."""
+    polar, azimuth = np.meshgrid(
+        np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, sectors + 1), indexing="ij"
+    )
+    unit = np.stack([np.sin(polar) * np.sin(azimuth), np.cos(polar), np.sin(polar) * np.cos(azimuth)], axis=-1)
     points = (np.asarray(center) + unit * axes).reshape(-1, 3)
     normals = (unit / axes).reshape(-1, 3)
     return points, normals / np.linalg.norm(normals, axis=1, keepdims=True), grid_triangles(rings, sectors)

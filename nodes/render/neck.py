@@ -1,7 +1,7 @@
 """The underside of the jaw, the neck and its foot, for a face mesh that ends at the jaw.
 
 All in the mean face's frame (see `graphface.nodes.head_shape`): unit = distance between the outer eye corners, x to the
-picture's right, y up, z to the viewer.
+picture's right, y up, z towards the viewer.
 """
 
 from __future__ import annotations
@@ -26,59 +26,61 @@ SECTIONS = (
     (-1.28, 0.83, -0.38, -1.87),
     (-1.38, 1.01, -0.45, -1.92),
 )
-"""Ellipses. Their shape is that of the neck of ICT-FaceKit's mean head (MIT), measured level by level and rounded;
-their place under the chin is that of the anthropometric neck in `graphface.nodes.head_shape`. They end where the neck
-does: shoulders need not face as the head does, and a head's shadow on shoulders that are elsewhere is a blotch.
+"""Ellipses from top to bottom. Their shape is that of the neck of ICT-FaceKit's mean head (MIT license), measured at
+each height and rounded; their position under the chin is that of the anthropometric neck in
+`graphface.nodes.head_shape`. They end where the neck does, because shoulders may face another direction than the head,
+and a shadow on shoulders that are elsewhere is a blotch.
 
-On path-traced heads 28.5 against 28.1 dB for a plain cylinder, 26.0 against 25.5 with light from above. (Going on with
-shoulders of average breadth adds nothing.)"""
-
-
-_DROP = 0.10
-"""How far below its edge the underside of the jaw meets the neck."""
+On path-traced heads 28.5 dB, a plain cylinder 28.1 dB; with light from above 26.0 and 25.5 dB. Shoulders of average
+breadth add nothing."""
 
 
-_ROUND = 0.12
-"""Length over which the jaw's edge is rounded, as far as it leads on in the direction of the face."""
+_JOIN_DEPTH = 0.10
+"""How far below the edge of the jaw its underside meets the neck."""
 
 
-_SUNK = 0.03
-"""How far the underside reaches into the neck, as a share of its radius: no gap for light to get through."""
+_ROUNDING = 0.12
+"""Length over which the edge of the jaw is rounded; the surface first continues in the direction of the face."""
 
 
-_STEPS = 6
+_OVERLAP = 0.03
+"""How far the underside reaches into the neck, as a share of the neck's radius, so that no light passes between."""
+
+
+_UNDERSIDE_STEPS = 6
 
 
 def neck(rows: int = 24, sectors: int = 64) -> Solid:
-    """The ellipses of `SECTIONS`, joined."""
+    """The surface through the ellipses of `SECTIONS`."""
     heights = np.linspace(SECTIONS[0][0], SECTIONS[-1][0], rows + 1)
-    turn = np.linspace(0, 2 * np.pi, sectors + 1)
-    points = _on_section(heights[:, None], turn[None, :]).reshape(-1, 3)
+    angles = np.linspace(0, 2 * np.pi, sectors + 1)
+    points = _on_section(heights[:, None], angles[None, :]).reshape(-1, 3)
     triangles = grid_triangles(rows, sectors)
     normals = vertex_normals(points, triangles).astype(np.float64)
-    _close(normals.reshape(rows + 1, sectors + 1, 3))
+    _close_seam(normals.reshape(rows + 1, sectors + 1, 3))
     return points, normals, triangles
 
 
 def underside(edge: Points, outward: Points) -> Solid:
-    """The surface from the edge of the jaw to the neck; it leaves the face without a crease.
+    """The surface from the edge of the jaw to the neck: cubic Bézier curves that leave the face without a crease.
 
     Args:
-        edge: (n, 3), n >= 2, along the rim of the face from the picture's left to its right.
+        edge: (n, 3), n >= 2, along the outline of the face from the picture's left to its right.
         outward: (n, 3), the face's unit normals there.
     """
     along = np.gradient(edge, axis=0)
     onward = np.cross(along, outward)  # across the edge, away from the face
     onward /= np.maximum(np.linalg.norm(onward, axis=1, keepdims=True), 1e-9)
-    height = np.clip(edge[:, 1] - _DROP, SECTIONS[-1][0], SECTIONS[0][0])
+    height = np.clip(edge[:, 1] - _JOIN_DEPTH, SECTIONS[-1][0], SECTIONS[0][0])
     breadth, depth, middle = _section(height)
-    turn = np.arctan2(edge[:, 0] / breadth, (edge[:, 2] - middle) / depth)
-    at_neck = _on_section(height, turn, 1 - _SUNK)
-    rounded = edge + _ROUND * onward
-    control = rounded + (at_neck - rounded) / 4
-    t = np.linspace(0, 1, _STEPS + 1)[:, None, None]
-    curve = (1 - t) ** 3 * edge + 3 * (1 - t) ** 2 * t * rounded + 3 * (1 - t) * t**2 * control + t**3 * at_neck
-    points, triangles = curve.reshape(-1, 3), grid_triangles(_STEPS, len(edge) - 1)
+    angle = np.arctan2(edge[:, 0] / breadth, (edge[:, 2] - middle) / depth)
+    at_neck = _on_section(height, angle, 1 - _OVERLAP)
+    first_control = edge + _ROUNDING * onward
+    second_control = first_control + (at_neck - first_control) / 4
+    t = np.linspace(0, 1, _UNDERSIDE_STEPS + 1)[:, None, None]
+    bend = 3 * (1 - t) ** 2 * t * first_control
+    curve = (1 - t) ** 3 * edge + bend + 3 * (1 - t) * t**2 * second_control + t**3 * at_neck
+    points, triangles = curve.reshape(-1, 3), grid_triangles(_UNDERSIDE_STEPS, len(edge) - 1)
     normals = vertex_normals(points, triangles).astype(np.float64)
     normals[: len(edge)] = outward
     return points, normals, triangles
@@ -99,14 +101,18 @@ def _section(height: Points) -> tuple[Points, Points, Points]:
     return breadth, (front - back) / 2, (front + back) / 2
 
 
-def _on_section(height: Points, turn: Points, share: float = 1.0) -> Points:
-    """Points at angles about the neck, 0 in front and positive to the picture's right; `share` of the radius."""
+def _on_section(height: Points, angle: Points, radius: float = 1.0) -> Points:
+    """Points on the ellipses at angles about the neck, 0 in front and positive to the picture's right.
+
+    Args:
+        radius: as a share of the ellipse's.
+    """
     breadth, depth, middle = _section(height)
-    x, z = share * breadth * np.sin(turn), middle + share * depth * np.cos(turn)
+    x, z = radius * breadth * np.sin(angle), middle + radius * depth * np.cos(angle)
     return np.stack(np.broadcast_arrays(x, height, z), axis=-1)
 
 
-def _close(normals: Points) -> None:
-    """The first and the last column of a ring are the same points, and get the same normals."""
+def _close_seam(normals: Points) -> None:
+    """Give the first and the last point of each ring, which coincide, the same normal."""
     seam = normals[:, 0] + normals[:, -1]
     normals[:, 0] = normals[:, -1] = seam / np.maximum(np.linalg.norm(seam, axis=1, keepdims=True), 1e-9)

@@ -1,4 +1,4 @@
-"""The relit picture: what the scene calls for put together, and the photo itself where it calls for nothing."""
+"""The relit picture."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from graphface import Lazy, Needs, UsageError, node
 from graphface.nodes.color import decode_srgb, encode_srgb
 from graphface.nodes.rendering import recombined
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import Albedo, DetailMap, Image, Scene, Shading
+from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Scene, Shading
 
 
-def _wanted(scene: Scene) -> Needs:
+def _needs(scene: Scene) -> Needs:
     if scene.unchanged:
         same = "the scene is the photo's own light: nothing changes"
         return {"albedo": same, "shading": same, "detail": same, "highlights": same}
@@ -22,7 +22,7 @@ def _wanted(scene: Scene) -> Needs:
     return {"albedo": True, "shading": True, "detail": True, "highlights": scene.specular > 0 or dull}
 
 
-@node("render.relit", needs=_wanted)
+@node("render.relit", needs=_needs)
 def relit(
     photo: Image,
     scene: Scene,
@@ -33,12 +33,18 @@ def relit(
     *,
     shoulder: Annotated[float, Field(ge=0, le=1)] = 0.5,
 ) -> Image:
-    """Albedo times shading plus detail (`blend.recombine`), plus highlights; the photo where the scene changes nothing.
+    """I^(n)(x) = rho(x) s^(n)(x) + I_d(x) (paper, equation 5), plus highlights.
+
+    A scene that is the photo's own light returns the photo itself.
 
     Args:
-        photo: the picture before, in the encoding of the others.
-        highlights: linear light to add, H x W x 3.
+        photo: the picture before, in the encoding of albedo, shading and detail.
+        shading: s^(n), under the new light, H x W or H x W x 3.
+        highlights: linear light that is added, H x W x 3.
         shoulder: see `blend.recombine`.
+
+    Raises:
+        UsageError: albedo, shading or detail is missing, and the scene changes the light.
     """
     if scene.unchanged:
         return photo
@@ -47,17 +53,22 @@ def relit(
     image = recombined(photo, albedo, shading, detail, shoulder=shoulder)
     if highlights is None or not highlights.any():
         return image
-    if photo.encoding == "linear":
-        return image.with_pixels(image.pixels + highlights)
+    return image.with_pixels(_with_highlights(image, highlights))
+
+
+def _with_highlights(image: Image, highlights: FloatArray) -> FloatArray:
+    """Pixels of the picture with linear light added; sRGB-encoded ones become at most white."""
+    if image.encoding == "linear":
+        return image.pixels + highlights
     pixels = np.empty_like(image.pixels)
 
     def strip(rows: slice) -> None:
         part, light = image.pixels[rows], highlights[rows]
         if light.any():
-            # At most white, or as bright as it was; where no light is added encoding may not even round.
+            # A value above white stays. Where no light is added the value stays to the last bit.
             brighter = np.minimum(encode_srgb(decode_srgb(part) + light), np.maximum(part, 1))
             part = np.where(light > 0, brighter, part)
         pixels[rows] = part
 
     by_strips(strip, pixels.shape)
-    return image.with_pixels(pixels)
+    return pixels

@@ -1,4 +1,4 @@
-"""How much each pixel answers to added light."""
+"""How much of added light each pixel reflects."""
 
 from __future__ import annotations
 
@@ -16,18 +16,19 @@ from graphface.nodes.types import Mask, Segmentation, Shading
 def response(
     own: Shading, estimated: Shading, labels: Segmentation, *, floor: Annotated[float, Field(gt=0, le=1)] = 0.02
 ) -> Mask:
-    """How much a pixel answers to added light: all of it on skin, less where it is dark by itself.
+    """The share of added light that a pixel reflects: 1 on skin, less on dark hair and dark clothes.
 
-    Beside the skin a pixel darker than the estimated light says is dark by itself (brown hair, a navy suit): intensity
-    as shading has put its darkness into `own`, and all its color into the albedo. Light added as on skin would make it
-    glow in that color, so there added light counts in proportion to `own` over `estimated`: as in the ratio.
+    Shading is intensity, so the darkness of brown hair or of a navy suit is in `own`, and the albedo has only its
+    color. If light were added there as on skin, the pixel would glow in that color. So beside the skin added light
+    counts in proportion to own / estimated, as it does in the shading ratio.
 
     Args:
-        own: the photo's own shading, H x W.
+        own: the photo's shading by the intrinsic method, H x W.
         estimated: shading under the photo's estimated light, H x W or H x W x 3.
+        floor: least estimated shading that is divided by.
 
     Returns:
-        1 where the label is face; elsewhere own / estimated, at most 1.
+        H x W in [0, 1]: 1 where the label is face; elsewhere own / estimated, at most 1.
     """
-    share = np.clip(own / np.maximum(channel_mean(estimated), np.float32(floor)), 0, 1)
-    return np.asarray(1 + (share - 1) * (1 - labels.face), np.float32)
+    ratio = np.clip(own / np.maximum(channel_mean(estimated), np.float32(floor)), 0, 1)
+    return np.asarray(1 + (ratio - 1) * (1 - labels.face), np.float32)

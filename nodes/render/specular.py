@@ -1,4 +1,4 @@
-"""Highlights that the new lights make on the skin; off unless a scene asks for them."""
+"""Specular highlights of the new lights on the skin."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from graphface import Lazy, node
 from graphface.nodes.color import in_three_channels
-from graphface.nodes.render.irradiance import arriving, irradiance, towards_light
-from graphface.nodes.render.shade import light_gain, needs_of_lights, seen_shares
+from graphface.nodes.render.irradiance import directions_to_light, irradiance, unshadowed_irradiance
+from graphface.nodes.render.sample_grid import enlarged, on_grid, visible_shares
+from graphface.nodes.render.shade import light_gain, needs_of_lights
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import (
     EnvironmentLight,
@@ -23,11 +24,15 @@ from graphface.nodes.types import (
 )
 
 NORMAL_REFLECTANCE = 0.028
-"""Fresnel reflectance of skin head-on (index of refraction 1.4)."""
+"""F_0, Fresnel reflectance of skin at normal incidence: ((n - 1) / (n + 1))^2 for a refractive index n of 1.4."""
 
 
 _SKIN_ALBEDO = 0.4
-"""Diffuse reflectance that the photo's brightness is taken to stand for, where highlights are compared with it."""
+"""Diffuse reflectance of skin that the photo's brightness stands for, so that highlights have its unit."""
+
+
+_LEAST_COSINE = 0.02
+"""Of the angles to light and viewer, which are divided by."""
 
 
 @node("render.specular", needs=needs_of_lights)
@@ -38,18 +43,19 @@ def specular(
     shadows: Lazy[Shadows] = None,
     panorama: Lazy[Lighting] = None,
 ) -> Shading:
-    """What directional, point and spot lights reflect off the skin towards the camera: microfacets after GGX.
+    """What directional, point and spot lights reflect off the skin towards the camera: a GGX microfacet model.
 
-    Walter, Marschner, Li, Torrance, Microfacet Models for Refraction, EGSR 2007; `scene.roughness` squared is their
-    alpha. Ambient and spherical-harmonic light makes none.
+    Walter, Marschner, Li, Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007. Ambient,
+    spherical-harmonic and environment light makes no highlights.
 
     Args:
-        mask: where there is skin, H x W.
+        scene: `scene.specular` scales the highlights; `scene.roughness` squared is the model's alpha_g.
+        mask: the skin, H x W.
 
     Returns:
         Linear light to be added to the linear picture, H x W x 3, not negative; 0 off the surface.
     """
-    normals, points, visible = samples.normals, samples.points, seen_shares(samples, shadows)
+    normals, points, visible = samples.normals, samples.points, visible_shares(samples, shadows)
     share = scene.mix if scene.mode == "mix" else 1.0
     new = irradiance(scene, normals, points, visible, panorama)
     gain = share * light_gain(scene, new, samples.irradiance, samples.weights)
@@ -57,33 +63,39 @@ def specular(
     for index, light in enumerate(scene.lights):
         if isinstance(light, HarmonicLight | EnvironmentLight):
             continue
-        lobe = _lobe(normals, towards_light(light, normals, points), scene.roughness)
-        arrives = arriving(light, normals, points) * visible.get(index, np.float32(1))
-        total += (lobe * arrives)[:, None] * light.radiance
-    shine = samples.enlarged(samples.on_grid(total * np.float32(gain * scene.specular * np.pi / _SKIN_ALBEDO)))
-    result = np.empty_like(shine)
+        reflectance = _ggx(normals, directions_to_light(light, normals, points), scene.roughness)
+        received = unshadowed_irradiance(light, normals, points) * visible.get(index, np.float32(1))
+        total += (reflectance * received)[:, None] * light.radiance
+    scaled = total * np.float32(gain * scene.specular * np.pi / _SKIN_ALBEDO)
+    highlights = enlarged(samples, on_grid(samples, scaled))
+    result = np.empty_like(highlights)
 
     def strip(rows: slice) -> None:
-        np.multiply(shine[rows], in_three_channels(mask[rows] * samples.coverage[rows]), out=result[rows])
+        np.multiply(highlights[rows], in_three_channels(mask[rows] * samples.coverage[rows]), out=result[rows])
 
     by_strips(strip, result.shape)
     return result
 
 
-def _lobe(normals: NDArray[np.float32], towards: FloatArray, roughness: float) -> FloatArray:
-    """D F G / (4 (n.l) (n.v)) with the viewer at +z: (n,)."""
+def _ggx(normals: NDArray[np.float32], towards: FloatArray, roughness: float) -> FloatArray:
+    """f_s = F D G / (4 |i.n| |o.n|) (Walter et al. 2007, equation 20), viewer o at +z, light i `towards`: (n,).
+
+    D is their equation 33 and G the product of their equation 34 for i and o; F is Schlick's approximation (1994).
+    """
     half = towards + np.array([0, 0, 1], np.float32)
     half /= np.maximum(np.sqrt(np.einsum("nc,nc->n", half, half)), np.float32(1e-4))[:, None]
-    alpha2 = np.float32(roughness**4)
-    n_h = np.clip(np.einsum("nc,nc->n", normals, half), 0, 1)
-    n_l = np.clip(np.einsum("nc,nc->n", normals, towards), 0.02, 1)
-    n_v = np.clip(normals[:, 2], 0.02, 1)
-    distribution = alpha2 / (np.float32(np.pi) * np.square(n_h * n_h * (alpha2 - 1) + 1))
+    alpha2 = np.float32(roughness**4)  # alpha_g^2
+    cos_half = np.clip(np.einsum("nc,nc->n", normals, half), 0, 1)
+    cos_light = np.clip(np.einsum("nc,nc->n", normals, towards), _LEAST_COSINE, 1)
+    cos_view = np.clip(normals[:, 2], _LEAST_COSINE, 1)
+    distribution = alpha2 / (np.float32(np.pi) * np.square(cos_half * cos_half * (alpha2 - 1) + 1))
     fresnel = NORMAL_REFLECTANCE + (1 - NORMAL_REFLECTANCE) * (1 - np.clip(half[:, 2], 0, 1)) ** 5
 
-    def smith(cosine: FloatArray) -> FloatArray:
-        shadowed: FloatArray = 2 * cosine / (cosine + np.sqrt(alpha2 + (1 - alpha2) * cosine * cosine))
-        return shadowed
+    def masking(cosine: FloatArray) -> FloatArray:
+        visible: FloatArray = 2 * cosine / (cosine + np.sqrt(alpha2 + (1 - alpha2) * cosine * cosine))
+        return visible
 
-    lobe: FloatArray = distribution * fresnel * smith(n_l) * smith(n_v) / (4 * n_l * n_v)
-    return lobe
+    reflectance: FloatArray = (
+        distribution * fresnel * masking(cos_light) * masking(cos_view) / (4 * cos_light * cos_view)
+    )
+    return reflectance

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -52,12 +51,6 @@ class Pins:
     """Correspondences set by hand: float32 (n, 4), each row x, y in the input and x, y in the reference."""
 
     points: FloatArray
-
-    @classmethod
-    def from_file(cls, path: Path) -> Pins:
-        from graphface.nodes.io.pins import read_pins
-
-        return read_pins(path)
 
     @classmethod
     def coerce(cls, value: Any) -> Pins:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal
 
 
@@ -22,9 +21,3 @@ class Judgements:
     """What people said about one picture."""
 
     pairs: tuple[Judgement, ...]
-
-    @classmethod
-    def from_file(cls, path: Path) -> Judgements:
-        from graphface.nodes.io.judgements import read_judgements
-
-        return read_judgements(path)

@@ -36,37 +36,6 @@ class Samples:
     coverage: Mask
     encoding: Encoding
 
-    def on_grid(self, values: FloatArray) -> FloatArray:
-        """Values (n,) or (n, c) as maps h x w or h x w x c: continued by one cell beyond the surface, else 0.
-
-        The rim lets a map be enlarged without the nothing beyond the surface darkening its edge.
-        """
-        import cv2
-
-        extra = values.shape[1:]
-        flat = np.zeros((self.grid[0] * self.grid[1], *extra), np.float32)
-        flat[self.cells] = values
-        around = np.asarray(cv2.boxFilter(self._map(flat), -1, (3, 3), normalize=False, borderType=cv2.BORDER_CONSTANT))
-        weights = self.rim_weights.reshape(-1, *[1] * len(extra))
-        flat[self.rim] = around.reshape(flat.shape).take(self.rim, axis=0) * weights
-        return self._map(flat)
-
-    def _map(self, flat: FloatArray) -> FloatArray:
-        return flat.reshape(*self.grid, *flat.shape[1:])
-
-    def at_points(self, map_: FloatArray) -> FloatArray:
-        """A map h x w read at the points: (n,)."""
-        return map_.reshape(-1).take(self.cells)
-
-    def enlarged(self, map_: FloatArray) -> FloatArray:
-        """A map of the grid at the picture's size, bilinear."""
-        import cv2
-
-        if self.grid == self.picture:
-            return map_
-        height, width = self.picture
-        return np.asarray(cv2.resize(map_, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
-
 
 @dataclass(frozen=True)
 class Surroundings:
@@ -98,15 +67,6 @@ class Shadows:
 
     lights: tuple[int, ...]
     visible: FloatArray
-
-    def of(self, light: int, shape: tuple[int, ...]) -> FloatArray:
-        """The map of one of `lights` at the picture's size (height, width)."""
-        import cv2
-
-        grid: FloatArray = self.visible[self.lights.index(light)]
-        if grid.shape == shape:
-            return grid
-        return np.asarray(cv2.resize(grid, (shape[1], shape[0]), interpolation=cv2.INTER_LINEAR), np.float32)
 
     @staticmethod
     def picture(shadows: Shadows) -> NDArray[np.uint8]:

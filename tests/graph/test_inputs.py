@@ -9,20 +9,15 @@ import pytest
 from pydantic import BaseModel, ConfigDict, Field
 from toys import toy_registry
 
-from graphface import ArrayType, DocumentError, Graph, Pack, Registry, UnreadableFile, load, read_yaml, validated
+from graphface import DocumentError, Files, Graph, Pack, Registry, UnreadableFile, load, read_yaml, validated
 from graphface.errors import InputError
 
 
 class Note:
-    """A type that is read from a file, and accepts a list of words."""
+    """A type that is read from a file (see below), and accepts a list of words."""
 
     def __init__(self, text: str) -> None:
         self.text = text
-
-    @classmethod
-    def from_file(cls, path: Path) -> "Note":
-        os.environ["GRAPHFACE_TEST_READS"] = str(int(os.environ.get("GRAPHFACE_TEST_READS", "0")) + 1)
-        return cls(path.read_text())
 
     @classmethod
     def coerce(cls, value: object) -> "Note":
@@ -31,10 +26,17 @@ class Note:
         return cls(" ".join(value))
 
 
+def read_note(path: Path) -> Note:
+    os.environ["GRAPHFACE_TEST_READS"] = str(int(os.environ.get("GRAPHFACE_TEST_READS", "0")) + 1)
+    return Note(path.read_text())
+
+
 @pytest.fixture
 def registry() -> Registry:
     toys = toy_registry()
-    return Registry([*toys._packs, Pack("notes", {}, types={"Note": f"{__name__}:Note"})])
+    registry = Registry([*toys._packs, Pack("notes", {}, types={"Note": f"{__name__}:Note"})])
+    registry.add_files(Note, Files(read_note))
+    return registry
 
 
 @pytest.fixture(autouse=True)
@@ -164,15 +166,6 @@ class TestDefaults:
         assert load(tmp_path / "top.yaml", registry=registry).run()["y"].text == "inner"
 
 
-def test_array_type_reader() -> None:
-    """An array type with a reader is read from files too."""
-    from graphface.graph.inputs import reader_of
-    from graphface.values.port_types import PortType
-
-    assert reader_of(PortType((ArrayType("A", from_file=np.load),))) is np.load
-    assert reader_of(PortType((ArrayType("A"),))) is None
-
-
 class Recipe(BaseModel):
     """A type that is a pydantic model."""
 
@@ -181,19 +174,21 @@ class Recipe(BaseModel):
     steps: list[Annotated[int, Field(ge=0)]] = []
 
     @classmethod
-    def from_file(cls, path: Path) -> "Recipe":
-        os.environ["GRAPHFACE_TEST_READS"] = str(int(os.environ["GRAPHFACE_TEST_READS"]) + 1)
-        return read_yaml(path, cls)
-
-    @classmethod
     def coerce(cls, value: object) -> "Recipe":
         return validated(value, cls)
+
+
+def read_recipe(path: Path) -> Recipe:
+    os.environ["GRAPHFACE_TEST_READS"] = str(int(os.environ["GRAPHFACE_TEST_READS"]) + 1)
+    return read_yaml(path, Recipe)
 
 
 class TestModel:
     @pytest.fixture
     def recipes(self) -> Registry:
-        return Registry([*toy_registry()._packs, Pack("recipes", {}, types={"Recipe": f"{__name__}:Recipe"})])
+        registry = Registry([*toy_registry()._packs, Pack("recipes", {}, types={"Recipe": f"{__name__}:Recipe"})])
+        registry.add_files(Recipe, Files(read_recipe))
+        return registry
 
     def test_is_read_when_bound(self, recipes: Registry, tmp_path: Path) -> None:
         """A file is read once, when it is given: its mistakes are found before anything runs."""

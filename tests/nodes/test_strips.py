@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.nodes.strips import by_strips, side_by_side
+from graphface.nodes.strips import by_strips, in_parallel
 
 
 class TestByStrips:
@@ -42,12 +42,12 @@ class TestByStrips:
             by_strips(work, (1000, 1000, 3))
 
 
-class TestSideBySide:
+class TestInParallel:
     @given(count=st.integers(0, 40))
     def test_each_item_once(self, count):
         """None is left out and none is taken by two threads."""
         taken = []
-        side_by_side(taken.append, range(count))
+        in_parallel(taken.append, range(count))
         assert sorted(taken) == list(range(count))
 
     def test_work_may_share_its_own_work(self):
@@ -56,7 +56,7 @@ class TestSideBySide:
 
         def work(depth):
             if depth:
-                side_by_side(work, [depth - 1] * 3)
+                in_parallel(work, [depth - 1] * 3)
             else:
                 done.append(1)
 
@@ -71,18 +71,18 @@ class TestSideBySide:
 
         for _ in range(20):
             with pytest.raises(ValueError, match=r"\d"):
-                side_by_side(fail, range(50))
+                in_parallel(fail, range(50))
             assert _count(50) == 50
 
     @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
     def test_survives_a_fork(self):
         """A child of a process that has used its threads has none of them, and starts its own."""
-        side_by_side(lambda item: None, range(50))
+        in_parallel(lambda item: None, range(50))
         with multiprocessing.get_context("fork").Pool(1) as pool:
             assert pool.apply_async(_count, (50,)).get(timeout=60) == 50
 
 
 def _count(items):
     seen = []
-    side_by_side(seen.append, range(items))
+    in_parallel(seen.append, range(items))
     return len(seen)

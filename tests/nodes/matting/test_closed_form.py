@@ -8,7 +8,7 @@ import pytest
 from portraits import portrait
 from scipy.sparse.linalg import spsolve
 
-from graphface.nodes.commands.matting_speed import whole_picture
+from graphface.nodes.bench.matting_speed import whole_picture
 from graphface.nodes.matting.band import band_of, likeliest_alphas, merged, soft_alphas
 from graphface.nodes.matting.closed_form import closed_form
 from graphface.nodes.matting.laplacian import band_system
