@@ -14,7 +14,7 @@ _MODULES = {
     "texture": "unwrap project",
     "overlay": "mesh normals depth checkerboard",
     "export": "textured",
-    "masks": "face geometric features cue cued_hair hair classify network override",
+    "masks": "face geometric features cue cued_hair hair classify network given_head given_hair given_labels",
     "matting": "none guided closed_form knn",
     "regions": "nine",
     "intrinsic": "intensity retinex multiscale_retinex bilateral log_tv l1_flatten bell2014",
