@@ -60,5 +60,5 @@ class TestLabelWeights:
         """The shipped weights from a file of the user's give the shipped labels."""
         photo, landmarks, _ = portrait()
         write_weights(shipped_weights(), {}, tmp_path / "mine.safetensors")
-        found = cue(photo, landmarks, LabelWeights.from_file(tmp_path / "mine.safetensors"))
+        found = cue(photo, landmarks, LabelWeights(read_weights(tmp_path / "mine.safetensors")))
         np.testing.assert_array_equal(found.face, cue(photo, landmarks).face)
