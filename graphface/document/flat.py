@@ -17,7 +17,7 @@ from graphface.place import Place
 
 @dataclass(frozen=True)
 class FlatWire:
-    """What is plugged into a port; `broken` where a name in it means nothing, which was told already.
+    """What is plugged into a port; `broken` where a name in it means nothing, which is among the problems already.
 
     `unplugged` where the file says null: it takes away what is plugged in under an old name of the port.
     """
@@ -46,7 +46,7 @@ class FlatNode:
 class Composition:
     """The whole flat graph.
 
-    `problems` is what is wrong so far; wiring adds what it finds, so that all of it is told at once.
+    `problems` is what is wrong so far; wiring adds what it finds, so that all of it is reported together.
     """
 
     path: Path | None
