@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from hashlib import blake2b
 
 from graphface.cache.digest import canonical
-from graphface.cache.fingerprint import Fingerprint, fingerprint
+from graphface.fingerprint import Fingerprint, fingerprint
 from graphface.node import Operator
 from graphface.wiring import Step
 
@@ -31,14 +31,22 @@ class Code:
         self._prints: dict[Operator, tuple[Fingerprint, bytes]] = {}
 
     def digest(self, operator: Operator) -> bytes:
-        known = self._prints.get(operator)
-        if known is not None and not known[0].stale():
-            return known[1]
-        roots = (operator.function,) if operator.needs is None else (operator.function, operator.needs)
-        found = fingerprint(*roots)
+        return self.digests([operator])[operator]
+
+    def digests(self, operators: Sequence[Operator]) -> dict[Operator, bytes]:
+        """The digest of each; what several share is looked at once."""
+        known = {operator: self._prints[operator] for operator in operators if operator in self._prints}
+        watched = {watch for found, _ in known.values() for watch in found.watched}
+        changed = {watch for watch in watched if watch.changed()}
+        for operator in operators:
+            if operator not in known or (changed and not changed.isdisjoint(known[operator][0].watched)):
+                known[operator] = self._prints[operator] = self._take(operator)
+        return {operator: known[operator][1] for operator in operators}
+
+    def _take(self, operator: Operator) -> tuple[Fingerprint, bytes]:
+        found = fingerprint(operator.function, operator.needs)
         named = canonical((operator.name, operator.version, found.digest))
-        self._prints[operator] = (found, blake2b(named, digest_size=KEY_BYTES).digest())
-        return self._prints[operator][1]
+        return found, blake2b(named, digest_size=KEY_BYTES).digest()
 
 
 CODE = Code()
@@ -120,7 +128,7 @@ class KeyTable:
 
     def _refresh_code(self) -> bool:
         """Recompute what does not depend on inputs, where an operator's code changed; whether it did."""
-        code = {operator: CODE.digest(operator) for operator in self._operators}
+        code = CODE.digests(self._operators)
         if code == self._code and self._statics:
             return False
         self._code = code
