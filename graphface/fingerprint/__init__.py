@@ -9,8 +9,9 @@ the modules are small.
 What is not in any file (a notebook's cell, a function patched in, a file edited after it was loaded) counts as it is in
 memory: `graphface.fingerprint.loaded` finds it, `graphface.fingerprint.walk` describes it.
 
-Known limits: a module imported by a computed name (`importlib.import_module(name)`) is not seen. A counter or a cache
-that is a module's global counts as a constant replaced at run time, unless the file makes it an empty container.
+Known limits: a module imported by a computed name (`importlib.import_module(name)`) is not seen, nor is a data file of
+a computed name. A container changed in place is seen by the next fingerprint, not by `stale`. A counter that is a
+module's global counts as a constant replaced at run time.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from enum import Enum
 from functools import cached_property
 from operator import is_
@@ -72,7 +72,6 @@ class Module:
 
     Attributes:
         source: its file; of a loaded module as it was when first looked at, since that is what runs.
-        departures: what it holds and its file does not say, by qualified name.
         classes: those that it holds as its file says.
         watch: holds for as long as this description does.
     """
@@ -80,14 +79,15 @@ class Module:
     def __init__(self, name: str, source: Source, loaded: ModuleType | None, known: dict[str, Any]) -> None:
         self.name, self.source, self.loaded = name, source, loaded
         self.spec = getattr(loaded, "__spec__", None)
-        self.departures: list[tuple[str, Any]] = []
+        self._departures: list[tuple[str, Any]] = []
+        self._imports: list[tuple[str, Any, str, str | None]] = []
         self.classes: set[type] = set()
         self.watch = Watch()
         self._first, self._known = not known, known
+        self.watch.name(sys.modules, name)
         for file in source.files:
             self.watch.file(file)
         if loaded is None:
-            self.watch.name(sys.modules, name)
             self.watch.file(source.path)
         else:
             self._compare(vars(loaded), "")
@@ -119,6 +119,19 @@ class Module:
         alike = self.source.codes.get(name, [])
         return f"{name} {alike.index(function.__code__)}" if function.__code__ in alike else None
 
+    def departures(self) -> Iterator[tuple[str, Any]]:
+        """What the module holds and its file does not say, by qualified name.
+
+        What was imported is compared each time: the module it came from may have been loaded again since.
+        """
+        yield from self._departures
+        for label, value, module, name in self._imports:
+            held: Any = sys.modules.get(module, value)
+            if held is not value and name is not None:
+                held = vars(held).get(name, sys.modules.get(f"{module}.{name}", value))
+            if held is not value and not _same(held, value):
+                yield label, value
+
     def _compare(self, space: Mapping[str, Any], scope: str) -> None:
         """Compare the names of the module, or of a class in it, with what the file says."""
         self.watch.space(space)
@@ -127,25 +140,25 @@ class Module:
             if isinstance(function, FunctionType):
                 self.watch.function(function)
             if self._departs(label, value, function):
-                self.departures.append((label, value))
+                self._departures.append((label, value))
             elif isinstance(value, type) and (value.__module__, value.__qualname__) == (self.name, label):
                 self.classes.add(value)
                 self._compare(vars(value), label + ".")
 
     def _departs(self, label: str, value: Any, function: Any) -> bool:
         match self.source.pins.get(label):
-            case ("import", (module, name)) if module in sys.modules:
-                held = sys.modules[module]
-                if name is not None:
-                    held = vars(held).get(name, sys.modules.get(f"{module}.{name}", value))
-                return held is not value and not _same(held, value)
+            case ("import", (module, name)):
+                self._imports.append((label, value, module, name))
+                return False
             case ("literal", said) if said or not isinstance(said, list | dict | set):  # an empty one is filled in use
                 machinery = "." in label and (not isinstance(value, _PLAIN) or isinstance(value, Enum))
                 return not machinery and not _same(said, value)
             case ("def", decorated):
                 if isinstance(value, type) and (value.__module__, value.__qualname__) == (self.name, label):
                     return False
-                if isinstance(function, FunctionType) and function.__code__.co_qualname == label:
+                wrapped = function is not value and isinstance(value, FunctionType)
+                named = isinstance(function, FunctionType) and function.__code__.co_qualname == label
+                if named and (decorated or not wrapped):
                     return self.place(function) is None or self._replaced(label + "()", function.__defaults__)
                 if not decorated:
                     return True

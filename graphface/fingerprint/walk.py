@@ -13,19 +13,18 @@ import dis
 import sys
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from enum import Enum
 from itertools import chain
 from pathlib import PurePath
-from types import CellType, CodeType, FunctionType, ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-import numpy as np
-
-from graphface.cache.digest import Undigestible, digest_file, exact, new_hash
-from graphface.fingerprint.loaded import MISSING, Module, Watch
+from graphface.cache.digest import digest_file, exact, new_hash
+from graphface.fingerprint.loaded import Module, Watch
 from graphface.fingerprint.modules import absolute, distribution, imported, released
 
-_PLAIN = (type(None), bool, int, float, complex, str, bytes, type(...), np.ndarray, np.generic, PurePath)
+_PLAIN = (type(None), bool, int, float, complex, str, bytes, type(...), PurePath)
 _TELLING = ("__slots__", "__pydantic_fields__")
 """Attributes with a name of Python's own that decide what a class does."""
 
@@ -83,6 +82,8 @@ class Walk:
         """Count a module by its file, reach what it imports, describe what departs from the file."""
         module = Module.of(name)
         if module is None:
+            self._live.name(sys.modules, name)
+            self._put(name, sys.modules.get(name))
             return
         self.watched.append(module.watch)
         files = [digest_file(file) for file in module.source.files if file.is_file()]
@@ -90,17 +91,14 @@ class Walk:
         self._around(name.rpartition(".")[0])
         for target in module.source.imports:
             self._reach(target)
-        for label, value in module.departures:
+        for label, value in module.departures():
             self._put(name, label, value)
 
     def _put(self, *values: Any) -> None:
         """Write plain values; of any other its number, a description follows when its turn comes."""
         for value in values:
             if isinstance(value, _PLAIN) and not isinstance(value, Enum):
-                try:
-                    self._state.update(exact(value))
-                except Undigestible:  # an array of objects
-                    self._state.update(exact(type(value).__name__))
+                self._state.update(exact(value))
             else:
                 if id(value) not in self._numbers:
                     self._numbers[id(value)] = (len(self._numbers), value)
@@ -122,7 +120,7 @@ class Walk:
         elif type(value) in (list, tuple):
             self._put(len(value), *value)
         elif type(value) in (set, frozenset):
-            self._put(len(value), *sorted(value, key=_rank))
+            self._put(len(value), *sorted(value, key=lambda item: getattr(item, "__qualname__", "") or ascii(item)))
         elif type(value) is dict:
             self._put(len(value), *chain.from_iterable(value.items()))
         else:
@@ -130,7 +128,10 @@ class Walk:
 
     def _function(self, function: FunctionType) -> None:
         space, name = function.__globals__, function.__globals__.get("__name__") or ""
-        cells = [value for cell in function.__closure__ or () if (value := _content(cell)) is not MISSING]
+        cells = []
+        for cell in function.__closure__ or ():
+            with suppress(ValueError):  # not assigned yet
+                cells.append(cell.cell_contents)
         self._put(f"{name}.{function.__qualname__}")
         if released(name, self._own) is not None:  # somebody else's decorator: what it wraps may be ours
             self._reach(name)
@@ -146,7 +147,8 @@ class Walk:
         else:
             self.reached.setdefault(f"{name}.{function.__qualname__}", b"")
             self._code(function.__code__, space)
-            self._put(_annotations(function))
+            with suppress(NameError):  # evaluated only now, from 3.14 on
+                self._put(function.__annotations__)
         self._put(function.__defaults__, function.__kwdefaults__, *cells)
 
     def _code(self, code: CodeType, space: dict[str, Any]) -> None:
@@ -195,22 +197,6 @@ class Walk:
             self._put(*chain.from_iterable((n, v) for n, v in sorted(vars(module).items()) if not n.startswith("__")))
 
 
-def _content(cell: CellType) -> Any:
-    """What a closure's variable holds; `MISSING` where it is not assigned yet."""
-    try:
-        return cell.cell_contents
-    except ValueError:
-        return MISSING
-
-
-def _annotations(function: FunctionType) -> Any:
-    """What a function declares: types of parameters decide how they are coerced."""
-    try:
-        return function.__annotations__
-    except NameError:  # evaluated only now, from 3.14 on
-        return None
-
-
 def _parts(value: Any) -> list[Any]:
     """What an object consists of: what it wraps and what pickling would ask it for; nothing of a lock or a file."""
     try:
@@ -222,10 +208,3 @@ def _parts(value: Any) -> list[Any]:
     if isinstance(parts, str):
         return [wrapped, parts]
     return [wrapped, *(list(part) if isinstance(part, Iterator) else part for part in parts)]
-
-
-def _rank(value: Any) -> bytes:
-    try:
-        return exact(value)
-    except Undigestible:
-        return getattr(value, "__qualname__", type(value).__qualname__).encode()

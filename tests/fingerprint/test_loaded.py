@@ -1,5 +1,7 @@
 """What runs is what is in memory: names replaced at run time and files edited after they were loaded."""
 
+import functools
+import importlib
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -131,6 +133,31 @@ class TestReplacedBefore:
         setattr(__import__(f"probe_pack.{holder}", fromlist=["_"]), name, value)
         assert of(module).digest != before.digest
 
+    def test_wrapped(self, load):
+        """A decorator put around a function at run time is noticed, though the function in it is the same."""
+        before = of(load())
+        module = load()
+        gauss = module.kernels.gauss
+        module.kernels.gauss = functools.wraps(gauss)(lambda *arguments: 2 * gauss(*arguments))
+        assert of(module).digest != before.digest
+
+    def test_a_module(self, load, monkeypatch):
+        """A module put in the place of another, for an import inside a function to find."""
+        before = of(load())
+        module = load()
+        digests = {before.digest}
+        for scale in (2, 3):
+            fake = ModuleType("probe_pack.lazy")
+            exec(f"def finish(y): return {scale} * y", vars(fake))
+            monkeypatch.setitem(sys.modules, "probe_pack.lazy", fake)
+            found = of(module)
+            assert not found.stale()
+            digests.add(found.digest)
+        assert len(digests) == 3
+        monkeypatch.delitem(sys.modules, "probe_pack.lazy")
+        assert found.stale()
+        assert of(module).digest == before.digest
+
     def test_method_and_attribute(self, load):
         """So are methods and attributes of classes."""
         digests = {of(load()).digest}
@@ -180,6 +207,20 @@ class TestEditedAfterLoading:
         assert before.stale()
         assert of(module).digest == of(load({"lazy.py": ("AMOUNT = 5", "AMOUNT = 50")})).digest
 
+    def test_loaded_again(self, load):
+        """A module loaded again is as its file is by now; who imported from it before holds what it was."""
+        module = load()
+        before = of(module)
+        path = Path(module.__file__).with_name("tables.py")
+        path.write_text(path.read_text().replace("[1, 2, 3]", "[1, 2, 4]"))
+        importlib.reload(sys.modules["probe_pack.tables"])
+        assert before.stale()
+        mixed = of(module)
+        importlib.reload(module)
+        after = of(module)
+        assert len({before.digest, mixed.digest, after.digest}) == 3
+        assert after.digest == of(load({"tables.py": ("[1, 2, 3]", "[1, 2, 4]")})).digest
+
 
 class TestModule:
     def test_used_code_is_the_same(self, load):
@@ -190,7 +231,7 @@ class TestModule:
             module.kernels.gauss(1.0, 2.0)
             module.Table(1.0).read(module.LUT)
         load_again = Module("probe_pack.kernels", Module.of("probe_pack.kernels").source, module.kernels, {})
-        assert load_again.departures == []
+        assert list(load_again.departures()) == []
         assert of(module).digest == before.digest
 
     def test_caches_fill(self, load):
@@ -199,4 +240,4 @@ class TestModule:
         before = of(module)
         sys.modules["probe_pack.deep"].SEEN["x"] = np.zeros(3)
         assert of(module).digest == before.digest
-        assert Module.of("probe_pack.deep").departures == []
+        assert list(Module.of("probe_pack.deep").departures()) == []
