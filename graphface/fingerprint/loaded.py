@@ -64,7 +64,7 @@ class Watch:
         for function, code, defaults in self._functions:
             if function.__code__ is not code or function.__defaults__ is not defaults:
                 return True
-        return any(_stamp(path) != before for path, before in self._files)
+        return bool(self._files) and any(_stamp(path) != before for path, before in self._files)
 
 
 class Module:
@@ -76,14 +76,14 @@ class Module:
         watch: holds for as long as this description does.
     """
 
-    def __init__(self, name: str, source: Source, loaded: ModuleType | None, known: dict[str, Any]) -> None:
+    def __init__(self, name: str, source: Source, loaded: ModuleType | None, known: dict[str, Any] | None) -> None:
         self.name, self.source, self.loaded = name, source, loaded
         self.spec = getattr(loaded, "__spec__", None)
         self._departures: list[tuple[str, Any]] = []
         self._imports: list[tuple[str, Any, str, str | None]] = []
         self.classes: set[type] = set()
         self.watch = Watch()
-        self._first, self._known = not known, known
+        self._first, self._known = known is None, known or {}
         self.watch.name(sys.modules, name)
         for file in source.files:
             self.watch.file(file)
@@ -96,7 +96,7 @@ class Module:
     def of(cls, name: str) -> Module | None:
         """The module as it is now, None where it has no file; neither read nor compared again where nothing changed."""
         loaded, before = sys.modules.get(name), _modules.get(name)
-        source, known = None, {}
+        source, known = None, None
         if before is not None and before.loaded is loaded and before.spec is getattr(loaded, "__spec__", None):
             moved = loaded is None and locate(name) != before.source.path
             if not moved and not before.watch.changed():
@@ -146,13 +146,15 @@ class Module:
                 self._compare(vars(value), label + ".")
 
     def _departs(self, label: str, value: Any, function: Any) -> bool:
-        match self.source.pins.get(label):
+        match self.source.bindings.get(label):
             case ("import", (module, name)):
                 self._imports.append((label, value, module, name))
                 return False
-            case ("literal", said) if said or not isinstance(said, list | dict | set):  # an empty one is filled in use
+            case ("literal", stated) if stated or not isinstance(
+                stated, list | dict | set
+            ):  # an empty one is filled in use
                 machinery = "." in label and (not isinstance(value, _PLAIN) or isinstance(value, Enum))
-                return not machinery and not _same(said, value)
+                return not machinery and not _same(stated, value)
             case ("def", decorated):
                 if isinstance(value, type) and (value.__module__, value.__qualname__) == (self.name, label):
                     return False

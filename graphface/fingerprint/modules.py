@@ -24,6 +24,7 @@ def distribution(module: str) -> str:
     return _NODES if f"{module}.".startswith(_NODES + ".") else module.partition(".")[0]
 
 
+@cache
 def released(module: str, own: str) -> str | None:
     """What a module counts as: "numpy 2.4.6", "" for the standard library and the engine, None for its content.
 
@@ -83,12 +84,21 @@ def _version(top: str) -> str | None:
     file = locate(top)
     if file is None or _INSTALLED.isdisjoint(file.parts):
         return None
+    found: metadata.Distribution | None
     try:
-        return f"{top} {metadata.version(top.partition('.')[0])}"
+        found = metadata.distribution(top.partition(".")[0])
     except metadata.PackageNotFoundError:  # the distribution of cv2, PIL or skimage has another name
         folder = next(parent for parent in file.parents if parent.name in _INSTALLED)
         listed = f"\n{file.relative_to(folder).as_posix()},"
-        for record in sorted(folder.glob("*.dist-info/RECORD")):
-            if listed in "\n" + record.read_text("utf-8", "replace"):
-                return f"{top} {metadata.Distribution.at(record.parent).version}"
-        return f"{top} of no distribution"
+        found = next((one for one, record in _records(folder) if listed in record), None)
+    # `found.version` would parse the whole description of the package
+    header = (found.read_text("METADATA") if found is not None else None) or ""
+    version = header.partition("\nVersion: ")[2].partition("\n")[0]
+    return f"{top} {version}"
+
+
+@cache
+def _records(folder: Path) -> list[tuple[metadata.Distribution, str]]:
+    """The distributions in a folder, with the files each consists of."""
+    found = [metadata.Distribution.at(path) for path in sorted(folder.glob("*.dist-info"))]
+    return [(one, "\n" + (one.read_text("RECORD") or "")) for one in found]

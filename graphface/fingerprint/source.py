@@ -17,9 +17,9 @@ from typing import Any
 
 from graphface.cache.digest import new_hash
 from graphface.fingerprint.modules import absolute, distribution, imported
-from graphface.fingerprint.syntax import for_type_checkers, silent, syntax
+from graphface.fingerprint.syntax import for_type_checkers, ignored, syntax
 
-Pin = tuple[str, Any]
+Binding = tuple[str, Any]
 """("def", whether it is decorated), ("import", (module, name in it or None)) or ("literal", value)."""
 
 _RACY = 2.0
@@ -38,8 +38,8 @@ class Source:
         digest: 16 bytes of its syntax; of its bytes where it is not Python.
         imports: the modules it imports, at the top or inside functions; not those that only type checkers import.
         files: the data files it names; looked for beside it and in the folders of its package above.
-        acts: whether importing it does more than define names.
-        pins: what its names and those of its classes ("Table.read") mean; None where no single statement says it.
+        has_effects: whether importing it does more than define names.
+        bindings: what its names and those of its classes ("Table.read") mean; None where no single statement says it.
 
     Raises:
         OSError: it cannot be read.
@@ -51,18 +51,18 @@ class Source:
         text = path.read_bytes()
         self._text = text if path.suffix == ".py" else b""
         self._package = module if path.stem == "__init__" else module.rpartition(".")[0]
-        self.pins: dict[str, Pin | None] = {}
-        try:
+        self.bindings: dict[str, Binding | None] = {}
+        tree, content = ast.Module([], []), text
+        with suppress(SyntaxError, ValueError):
             tree = ast.parse(self._text)
-        except (SyntaxError, ValueError):
-            tree = ast.Module([], [])
+            content = syntax(tree) if path.suffix == ".py" else text
         state = new_hash()
-        state.update(syntax(tree) if tree.body else text)
+        state.update(content)
         self.digest = state.digest()
         top = distribution(module)
         statements = dict.fromkeys(self._read(tree.body, ""))
         self.imports = tuple(dict.fromkeys(name for read in statements for name in imported(*read, top)))
-        self.acts = not all(isinstance(node, _DEFINES) or silent(node, tree) for node in tree.body)
+        self.has_effects = not all(isinstance(node, _DEFINES) or ignored(node, tree) for node in tree.body)
         depth = self._package.count(".") - top.count(".") + 1
         self.files = tuple(dict.fromkeys(self._named_files(path.parents[:depth])))
 
@@ -91,21 +91,21 @@ class Source:
             return None
 
     def _read(self, body: Iterable[ast.AST], scope: str | None) -> Iterator[tuple[str, tuple[str, ...]]]:
-        """Module and names of the import statements in `body`; what it binds is pinned (scope: None in functions)."""
+        """Module and names of the import statements in `body`; what it binds is recorded (scope: None in functions)."""
         for node in body:
             match node:
                 case ast.Import(names=aliases):
                     for alias in aliases:
                         top = alias.name.partition(".")[0]
-                        self._pin(scope, alias.asname or top, ("import", (alias.name if alias.asname else top, None)))
+                        self._bind(scope, alias.asname or top, ("import", (alias.name if alias.asname else top, None)))
                         yield alias.name, ()
                 case ast.ImportFrom(names=aliases):
                     module = absolute("." * node.level + (node.module or ""), self._package)
                     for alias in aliases:
-                        self._pin(scope, alias.asname or alias.name, ("import", (module, alias.name)))
+                        self._bind(scope, alias.asname or alias.name, ("import", (module, alias.name)))
                     yield module, tuple(alias.name for alias in aliases)
                 case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
-                    self._pin(scope, node.name, ("def", bool(node.decorator_list)))
+                    self._bind(scope, node.name, ("def", bool(node.decorator_list)))
                     inside = isinstance(node, ast.ClassDef) and scope is not None
                     yield from self._read(node.body, f"{scope}{node.name}." if inside else None)
                 case ast.Assign(targets=targets, value=ast.expr() as value):
@@ -117,26 +117,26 @@ class Source:
                 case _:
                     never = "body" if for_type_checkers(node) else ""
                     for part in ("body", "orelse", "finalbody", "handlers", "cases"):
-                        if part != never:
-                            yield from self._read(getattr(node, part, ()), scope)
+                        if part != never and (inner := getattr(node, part, None)):
+                            yield from self._read(inner, scope)
 
     def _assign(self, scope: str | None, targets: list[ast.expr], value: ast.expr | None) -> None:
         if scope is None:
             return
-        pin: Pin | None = None
+        binding: Binding | None = None
         with suppress(ValueError, TypeError, SyntaxError, RecursionError):  # computed
-            pin = ("literal", ast.literal_eval(value)) if value is not None else None
+            binding = ("literal", ast.literal_eval(value)) if value is not None else None
         for target in targets:
             for node in ast.walk(target):
                 if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-                    self._pin(scope, node.id, pin if node is target else None)
+                    self._bind(scope, node.id, binding if node is target else None)
 
-    def _pin(self, scope: str | None, name: str, pin: Pin | None) -> None:
+    def _bind(self, scope: str | None, name: str, binding: Binding | None) -> None:
         if scope is not None:
             label = scope + name
-            known = self.pins.setdefault(label, pin)
-            if known is not pin and (known is None or pin is None or known[0] != "def" or pin[0] != "def"):
-                self.pins[label] = None  # bound twice; overloads and setters are functions of one name
+            known = self.bindings.setdefault(label, binding)
+            if known is not binding and (known is None or binding is None or known[0] != "def" or binding[0] != "def"):
+                self.bindings[label] = None  # bound twice; overloads and setters are functions of one name
 
     def _named_files(self, folders: Sequence[Path]) -> Iterator[Path]:
         """The files that quoted words name, with those beside them of another suffix: a card belongs to its weights."""

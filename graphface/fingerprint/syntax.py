@@ -11,8 +11,8 @@ import ast
 from functools import cache
 from typing import Any
 
-_IGNORED = frozenset({"ctx", "kind", "type_comment", "type_ignores"})
-_MAYBE_SILENT = frozenset({ast.Expr, ast.Constant, ast.If})
+_IGNORED_FIELDS = frozenset({"ctx", "kind", "type_comment", "type_ignores"})
+_MAYBE_IGNORED = frozenset({ast.Expr, ast.Constant, ast.If})
 
 
 def syntax(tree: ast.AST) -> bytes:
@@ -35,7 +35,7 @@ def syntax(tree: ast.AST) -> bytes:
                 pending.append(value)
             elif value.__class__ is list:
                 for item in value:
-                    if item.__class__ in _MAYBE_SILENT and silent(item, node):
+                    if item.__class__ in _MAYBE_IGNORED and ignored(item, node):
                         continue
                     if isinstance(item, ast.AST):
                         pending.append(item)
@@ -47,7 +47,7 @@ def syntax(tree: ast.AST) -> bytes:
     return ascii(written).encode()
 
 
-def silent(item: Any, above: ast.AST) -> bool:
+def ignored(item: Any, above: ast.AST) -> bool:
     """Whether an item of the body or the parts of a node says nothing."""
     match item:
         case ast.Expr(value=ast.Constant(value=str())):  # a string that stands alone
@@ -65,4 +65,4 @@ def for_type_checkers(node: ast.AST) -> bool:
 
 @cache
 def _fields(kind: type[ast.AST]) -> tuple[str, ...]:
-    return tuple(name for name in kind._fields if name not in _IGNORED)
+    return tuple(name for name in kind._fields if name not in _IGNORED_FIELDS)

@@ -25,7 +25,7 @@ from graphface.fingerprint.loaded import Module, Watch
 from graphface.fingerprint.modules import absolute, distribution, imported, released
 
 _PLAIN = (type(None), bool, int, float, complex, str, bytes, type(...), PurePath)
-_TELLING = ("__slots__", "__pydantic_fields__")
+_DECLARING = ("__slots__", "__pydantic_fields__")
 """Attributes with a name of Python's own that decide what a class does."""
 
 
@@ -48,7 +48,7 @@ class Walk:
         self._objects: deque[Any] = deque()
         self._modules: deque[str] = deque()
         self._packages = {""}
-        self._put(engine, *functions)
+        self._write(engine, *functions)
         while self._objects or self._modules:
             if self._objects:
                 self._describe(self._objects.popleft())
@@ -64,7 +64,7 @@ class Walk:
         if name != "":
             self.reached.setdefault(name or module, b"")
 
-    def _around(self, package: str) -> None:
+    def _reach_packages(self, package: str) -> None:
         """Reach the packages around a module where importing them does more than define names.
 
         Others count where something is imported from them: a table of all operators, or of names to re-export, says
@@ -74,27 +74,27 @@ class Walk:
             return
         self._packages.add(package)
         module = Module.of(package)
-        if module is not None and module.source.acts:
+        if module is not None and module.source.has_effects:
             self._reach(package)
-        self._around(package.rpartition(".")[0])
+        self._reach_packages(package.rpartition(".")[0])
 
     def _read(self, name: str) -> None:
         """Count a module by its file, reach what it imports, describe what departs from the file."""
         module = Module.of(name)
         if module is None:
             self._live.name(sys.modules, name)
-            self._put(name, sys.modules.get(name))
+            self._write(name, sys.modules.get(name))
             return
         self.watched.append(module.watch)
         files = [digest_file(file) for file in module.source.files if file.is_file()]
         self.reached[name] = module.source.digest + b"".join(files)
-        self._around(name.rpartition(".")[0])
+        self._reach_packages(name.rpartition(".")[0])
         for target in module.source.imports:
             self._reach(target)
         for label, value in module.departures():
-            self._put(name, label, value)
+            self._write(name, label, value)
 
-    def _put(self, *values: Any) -> None:
+    def _write(self, *values: Any) -> None:
         """Write plain values; of any other its number, a description follows when its turn comes."""
         for value in values:
             if isinstance(value, _PLAIN) and not isinstance(value, Enum):
@@ -106,7 +106,7 @@ class Walk:
                 self._state.update(exact(("object", self._numbers[id(value)][0])))
 
     def _describe(self, value: Any) -> None:
-        self._put(type(value).__name__)
+        self._write(type(value).__name__)
         if isinstance(value, FunctionType):
             self._function(value)
         elif isinstance(value, type):
@@ -114,17 +114,17 @@ class Walk:
         elif isinstance(value, ModuleType):
             self._module(value)
         elif isinstance(value, staticmethod | classmethod):
-            self._put(value.__func__)
+            self._write(value.__func__)
         elif isinstance(value, property):
-            self._put(value.fget, value.fset, value.fdel)
+            self._write(value.fget, value.fset, value.fdel)
         elif type(value) in (list, tuple):
-            self._put(len(value), *value)
+            self._write(len(value), *value)
         elif type(value) in (set, frozenset):
-            self._put(len(value), *sorted(value, key=lambda item: getattr(item, "__qualname__", "") or ascii(item)))
+            self._write(len(value), *sorted(value, key=lambda item: getattr(item, "__qualname__", "") or ascii(item)))
         elif type(value) is dict:
-            self._put(len(value), *chain.from_iterable(value.items()))
+            self._write(len(value), *chain.from_iterable(value.items()))
         else:
-            self._put(type(value), *_parts(value))
+            self._write(type(value), *_parts(value))
 
     def _function(self, function: FunctionType) -> None:
         space, name = function.__globals__, function.__globals__.get("__name__") or ""
@@ -132,48 +132,48 @@ class Walk:
         for cell in function.__closure__ or ():
             with suppress(ValueError):  # not assigned yet
                 cells.append(cell.cell_contents)
-        self._put(f"{name}.{function.__qualname__}")
+        self._write(f"{name}.{function.__qualname__}")
         if released(name, self._own) is not None:  # somebody else's decorator: what it wraps may be ours
             self._reach(name)
             ours = [value for value in cells if isinstance(value, FunctionType | type)]
-            self._put(function.__dict__.get("__wrapped__"), *ours)
+            self._write(function.__dict__.get("__wrapped__"), *ours)
             return
         self._live.function(function)
         module = Module.of(name)
         place = module.place(function) if module is not None else None
         if place is not None:
-            self._put(place)
+            self._write(place)
             self._reach(name)
         else:
             self.reached.setdefault(f"{name}.{function.__qualname__}", b"")
             self._code(function.__code__, space)
             with suppress(NameError):  # evaluated only now, from 3.14 on
-                self._put(function.__annotations__)
-        self._put(function.__defaults__, function.__kwdefaults__, *cells)
+                self._write(function.__annotations__)
+        self._write(function.__defaults__, function.__kwdefaults__, *cells)
 
     def _code(self, code: CodeType, space: dict[str, Any]) -> None:
         """Describe code that stands in no file, and the globals and modules that it names."""
-        self._put(sys.implementation.cache_tag, code.co_code, code.co_exceptiontable, code.co_flags)
-        self._put(code.co_argcount, code.co_kwonlyargcount, code.co_names, code.co_varnames, code.co_freevars)
+        self._write(sys.implementation.cache_tag, code.co_code, code.co_exceptiontable, code.co_flags)
+        self._write(code.co_argcount, code.co_kwonlyargcount, code.co_names, code.co_varnames, code.co_freevars)
         steps = [step for step in dis.get_instructions(code) if step.opname != "EXTENDED_ARG"]
         for index, step in enumerate(steps):
             if step.opname == "IMPORT_NAME":
                 level, names = (before.argval for before in steps[index - 2 : index])
                 module = absolute("." * level + step.argval, space.get("__package__") or "")
                 for target in imported(module, names or (), self._own):
-                    self._put(target)
+                    self._write(target)
                     self._reach(target)
             elif step.opname in ("LOAD_GLOBAL", "LOAD_NAME"):
                 self._live.name(space, step.argval)
-                self._put(step.argval, space.get(step.argval, "missing"))
+                self._write(step.argval, space.get(step.argval, "missing"))
         for constant in code.co_consts:
             if isinstance(constant, CodeType):
                 self._code(constant, space)
             else:
-                self._put(ascii(sorted(map(ascii, constant)) if isinstance(constant, frozenset) else constant))
+                self._write(ascii(sorted(map(ascii, constant)) if isinstance(constant, frozenset) else constant))
 
     def _class(self, kind: type) -> None:
-        self._put(f"{kind.__module__}.{kind.__qualname__}")
+        self._write(f"{kind.__module__}.{kind.__qualname__}")
         others = released(kind.__module__, self._own) is not None
         module = Module.of(kind.__module__) if not others else None
         if others or (module is not None and kind in module.classes):
@@ -181,20 +181,20 @@ class Walk:
             return
         self.reached.setdefault(f"{kind.__module__}.{kind.__qualname__}", b"")
         self._live.space(vars(kind))
-        self._put(type(kind), *kind.__bases__)
+        self._write(type(kind), *kind.__bases__)
         for name in sorted(vars(kind)):
             value = vars(kind)[name]
-            if not name.startswith("__") or isinstance(value, FunctionType) or name in _TELLING:
-                self._put(name, value)
+            if not name.startswith("__") or isinstance(value, FunctionType) or name in _DECLARING:
+                self._write(name, value)
 
     def _module(self, module: ModuleType) -> None:
         name = module.__name__
-        self._put(name)
+        self._write(name)
         if released(name, self._own) is not None or (Module.of(name) is not None and sys.modules.get(name) is module):
             self._reach(name)
         else:  # made at run time
             self._live.space(vars(module))
-            self._put(*chain.from_iterable((n, v) for n, v in sorted(vars(module).items()) if not n.startswith("__")))
+            self._write(*chain.from_iterable((n, v) for n, v in sorted(vars(module).items()) if not n.startswith("__")))
 
 
 def _parts(value: Any) -> list[Any]:

@@ -230,7 +230,7 @@ class TestModule:
         for _ in range(1000):
             module.kernels.gauss(1.0, 2.0)
             module.Table(1.0).read(module.LUT)
-        load_again = Module("probe_pack.kernels", Module.of("probe_pack.kernels").source, module.kernels, {})
+        load_again = Module("probe_pack.kernels", Module.of("probe_pack.kernels").source, module.kernels, None)
         assert list(load_again.departures()) == []
         assert of(module).digest == before.digest
 

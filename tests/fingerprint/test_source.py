@@ -154,7 +154,7 @@ class TestSource:
         return read
 
     @pytest.mark.parametrize(
-        ("text", "pins"),
+        ("text", "bindings"),
         [
             ("a = 1", {"a": ("literal", 1)}),
             ("a: int = 1", {"a": ("literal", 1)}),
@@ -175,10 +175,14 @@ class TestSource:
             ),
         ],
     )
-    def test_pins(self, read, text, pins):
+    def test_pins(self, read, text, bindings):
         """What a name is, as far as one statement says it."""
-        assert {name: pin for name, pin in read(text).pins.items() if name not in pins or pin != pins[name]} == {}
-        assert read(text).pins.keys() == pins.keys()
+        assert {
+            name: binding
+            for name, binding in read(text).bindings.items()
+            if name not in bindings or binding != bindings[name]
+        } == {}
+        assert read(text).bindings.keys() == bindings.keys()
 
     def test_imports(self, read):
         """Those inside functions count, those for type checkers do not."""
@@ -191,7 +195,7 @@ class TestSource:
         assert set(read(text).imports) == {"typing", "json.decoder", "wave", "numpy"}
 
     @pytest.mark.parametrize(
-        ("text", "acts"),
+        ("text", "effects"),
         [
             (
                 '"""Words."""\nimport a\nfrom b import c\n__all__ = ["c"]\ndef f(): pass\nclass C: pass\nx: int = 1',
@@ -202,11 +206,12 @@ class TestSource:
             ("try:\n    import a\nexcept ImportError:\n    pass", True),
         ],
     )
-    def test_acts(self, read, text, acts):
+    def test_effects(self, read, text, effects):
         """Whether importing a module does more than define names."""
-        assert read(text).acts is acts
+        assert read(text).has_effects is effects
 
     def test_not_python(self, read):
         """A file that does not parse counts by its bytes."""
         assert read("x = (").digest != read("x = ((").digest
         assert read("x = (").codes == {}
+        assert read("# a remark").digest == read("").digest
