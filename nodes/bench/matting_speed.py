@@ -2,8 +2,8 @@
 
 The whole picture is solved as PyMatting does with its own defaults: the Laplacian of every pixel, known pixels held
 with weight 100, incomplete Cholesky factors (threshold 1e-4, once for both labels) and conjugate gradients to 1e-7.
-Both ways minimise the same energy, the trust in soft labels included. BLAS keeps to one thread: its threads wait in a
-busy loop, which would be counted against PyMatting.
+Both ways minimise the same energy, with the same weight of the soft labels. BLAS keeps to one thread: its threads wait
+in a busy loop, which would be counted against PyMatting.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from graphface import Graph
 from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.bench.segmentation_graphs import MATTED, segmentation_graph, unmatted
-from graphface.nodes.matting.band import band_of, likeliest_alphas
+from graphface.nodes.matting.band import band_of, hard_alphas
 from graphface.nodes.types import Image, Segmentation
 
 HELD = 100.0
@@ -49,7 +49,7 @@ class Compared:
         return self.whole_seconds / max(self.band_seconds, 1e-9)
 
 
-def matting_speed(photos: Iterable[Path], *, trust: float, tolerance: float) -> Iterator[Compared]:
+def matting_speed(photos: Iterable[Path], *, label_weight: float, tolerance: float) -> Iterator[Compared]:
     """Solve every photo both ways, at one setting of matting.closed_form.
 
     Raises:
@@ -57,7 +57,7 @@ def matting_speed(photos: Iterable[Path], *, trust: float, tolerance: float) -> 
     """
     from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
-    graph = segmentation_graph(matting="closed_form", settings={"trust": trust, "tolerance": tolerance})
+    graph = segmentation_graph(matting="closed_form", settings={"label_weight": label_weight, "tolerance": tolerance})
     for path in photos:
         with threadpool_limits(1):
             yield compared(path, graph)
@@ -72,11 +72,11 @@ def compared(path: Path, graph: Graph) -> Compared:
     found = graph.run([MATTED], evaluator=evaluator, photo=path)[MATTED]
     (settings,) = (step.parameters for step in graph.steps if step.name == MATTED)
     photo, labels = made["working"], made[classes]
-    band = band_of(labels, made["landmarks"].interocular, width=settings["width"], strands=settings["strands"])
+    band = band_of(labels, made["landmarks"].interocular, width=settings["width"], hair_width=settings["hair_width"])
     unknown = np.zeros(labels.face.shape, bool)
     unknown[band.part] = band.unknown
     start = time.process_time()
-    whole = whole_picture(photo, labels, unknown, settings["trust"])
+    whole = whole_picture(photo, labels, unknown, settings["label_weight"])
     whole_seconds = time.process_time() - start
     apart = np.abs(np.stack([found.face, found.hair, found.background], axis=2) - whole)
     return Compared(
@@ -90,16 +90,18 @@ def compared(path: Path, graph: Graph) -> Compared:
     )
 
 
-def whole_picture(photo: Image, labels: Segmentation, unknown: NDArray[np.bool_], trust: float) -> NDArray[np.float64]:
+def whole_picture(
+    photo: Image, labels: Segmentation, unknown: NDArray[np.bool_], label_weight: float
+) -> NDArray[np.float64]:
     """Alphas of face, hair and background (H x W x 3) by PyMatting's solve for every pixel of the picture."""
     from pymatting.laplacian.cf_laplacian import cf_laplacian
     from pymatting.preconditioner.ichol import ichol
     from pymatting.solver.cg import cg
     from scipy.sparse import diags
 
-    weight = np.where(unknown, trust, HELD).reshape(-1)
+    weight = np.where(unknown, label_weight, HELD).reshape(-1)
     soft = np.stack([labels.face, labels.hair], axis=2)
-    held = np.where(unknown[..., None], soft, likeliest_alphas(labels, (slice(None), slice(None)))).reshape(-1, 2)
+    held = np.where(unknown[..., None], soft, hard_alphas(labels, (slice(None), slice(None)))).reshape(-1, 2)
     laplacian = cf_laplacian(np.clip(photo.pixels, 0, 1).astype(np.float64))
     system = (laplacian + diags(weight)).tocsc()
     with redirect_stdout(StringIO()):  # every shift of the diagonal that it tries in vain is printed

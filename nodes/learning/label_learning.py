@@ -21,7 +21,7 @@ from graphface.nodes.learning.label_lessons import Lesson, head_lessons, photo_l
 from graphface.nodes.learning.label_training import Examples, folded, trained
 from graphface.nodes.learning.label_variations import example
 from graphface.nodes.masks.network_input import CHANNELS
-from graphface.nodes.masks.upright import HEIGHT, WIDTH
+from graphface.nodes.masks.upright_grid import HEIGHT, WIDTH
 
 _SUFFIXES = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"}
 _OF_EACH_PERSON = 3

@@ -15,8 +15,8 @@ from graphface.nodes.geometry.facemesh import facemesh as build_mesh
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.geometric import geometric
-from graphface.nodes.masks.network import network, window_chances
-from graphface.nodes.masks.upright import HEIGHT, WIDTH, Upright, upright_of
+from graphface.nodes.masks.network import network, window_probabilities
+from graphface.nodes.masks.upright_grid import HEIGHT, WIDTH, UprightGrid, upright_grid
 from graphface.nodes.network_pixels import network_pixels
 from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks
@@ -60,7 +60,7 @@ def photo_lessons(paths: Iterable[Path]) -> Iterator[Lesson]:
             warn(f"{path.name} is left out: {error}")
             continue
         masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
-        found = network(photo, landmarks, masks, certainty=CERTAINTY)
+        found = network(photo, landmarks, masks, inverse_temperature=CERTAINTY)
         labels = np.stack([found.face, found.hair], axis=2)
         yield lesson(path.stem, photo, landmarks, labels, np.maximum(_person(photo, landmarks), labels.sum(axis=2)))
 
@@ -81,14 +81,14 @@ def head_lessons(data: Path) -> Iterator[Lesson]:
 
 def lesson(name: str, photo: Image, landmarks: Landmarks, labels: FloatArray, person: FloatArray) -> Lesson:
     """Everything about one picture on its lesson's grid."""
-    grid = upright_of(landmarks)
+    grid = upright_grid(landmarks)
     middle = np.array([WIDTH - 1, HEIGHT - 1]) / 2
     matrix = grid.matrix / MARGIN
     matrix[:, 2] += middle * (1 - 1 / MARGIN)
-    wide = Upright(matrix)
+    wide = UprightGrid(matrix)
     pixels = np.clip(wide.sampled(network_pixels(photo.pixels, photo.encoding), FINE), 0, 1)
     maps = np.clip(wide.sampled(np.dstack([labels, person]), FINE), 0, 1)
-    seen = wide.seen(photo.pixels.shape, FINE)
+    seen = wide.inside(photo.pixels.shape, FINE)
     plate = plate_behind(pixels, maps[..., 2], seen)
     return Lesson(
         name=name,
@@ -97,7 +97,7 @@ def lesson(name: str, photo: Image, landmarks: Landmarks, labels: FloatArray, pe
         labels=_bytes(maps[..., :2]),
         person=_bytes(maps[..., 2]),
         plate=_bytes(plate),
-        landmarks=wide.placed(landmarks, FINE),
+        landmarks=wide.to_grid(landmarks, FINE),
     )
 
 
@@ -125,7 +125,7 @@ def _person(photo: Image, landmarks: Landmarks) -> FloatArray:
     """What the teacher does not call backdrop, H x W: clothes and hands too."""
     import cv2
 
-    window, chances = window_chances(photo, landmarks)
+    window, chances = window_probabilities(photo, landmarks)
     person = np.zeros(photo.pixels.shape[:2], np.float32)
     size = (window.right - window.left, window.bottom - window.top)
     person[window.part] = 1 - cv2.resize(np.ascontiguousarray(chances[..., BACKDROP]), size)

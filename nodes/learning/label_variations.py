@@ -9,8 +9,8 @@ import numpy as np
 from numpy.random import Generator
 
 from graphface.nodes.learning.label_lessons import Bytes, Lesson
-from graphface.nodes.masks.network_input import mirror_image, shown
-from graphface.nodes.masks.upright import HEIGHT, UNIT, WIDTH, upright_of
+from graphface.nodes.masks.network_input import mirrored_input, network_input
+from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
 from graphface.nodes.types import FloatArray, Landmarks
 
 UNSURE = 0.25
@@ -29,7 +29,7 @@ class Example:
 def example(lesson: Lesson, others: Sequence[Lesson], random: Generator) -> Example:
     """A variation of a lesson; backdrops may come from the others."""
     landmarks = _misplaced(lesson.landmarks, random)
-    grid = upright_of(landmarks)
+    grid = upright_grid(landmarks)
 
     def sampled(values: Bytes) -> FloatArray:
         return np.asarray(grid.sampled(values) / 255, np.float32)
@@ -42,13 +42,13 @@ def example(lesson: Lesson, others: Sequence[Lesson], random: Generator) -> Exam
         pixels = person[..., None] * pixels + (1 - person[..., None]) * plate
     pixels = _recolored(pixels, labels, person, random)
     pixels = _taken_again(_lit(pixels, random), random)
-    input_ = shown(pixels, np.asarray(seen, np.float32), grid.layout(landmarks))
+    input_ = network_input(pixels, np.asarray(seen, np.float32), grid.layout(landmarks))
     target = np.dstack([labels, np.maximum(1 - labels.sum(axis=2), 0)])
     target /= np.maximum(target.sum(axis=2, keepdims=True), 1e-6)
     sure = np.clip(2 * target.max(axis=2) - 1, 0, 1)
     weight = seen * (UNSURE + (1 - UNSURE) * sure)
     if random.random() < 0.5:
-        input_, target, weight = mirror_image(input_), target[:, ::-1], weight[:, ::-1]
+        input_, target, weight = mirrored_input(input_), target[:, ::-1], weight[:, ::-1]
     return Example(
         np.ascontiguousarray(input_, np.float32),
         np.ascontiguousarray(target, np.float32),

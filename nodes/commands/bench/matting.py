@@ -24,7 +24,7 @@ def matting(
     from graphface.nodes.bench.matting_speed import matting_speed
     from graphface.report.terminal import print_table
 
-    found = list(matting_speed(files_of(photos), trust=trust, tolerance=tolerance))
+    found = list(matting_speed(files_of(photos), label_weight=trust, tolerance=tolerance))
     rows = [
         (
             *(one.photo, "x".join(map(str, one.size)), f"{100 * one.share:.0f}"),

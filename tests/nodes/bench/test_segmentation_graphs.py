@@ -35,6 +35,6 @@ class TestSegmentationGraph:
 
     def test_settings(self):
         """Parameters of the matting."""
-        graph = segmentation_graph(matting="closed_form", settings={"trust": 0.5})
+        graph = segmentation_graph(matting="closed_form", settings={"label_weight": 0.5})
         (step,) = (step for step in graph.steps if step.name == MATTED)
-        assert step.parameters["trust"] == 0.5
+        assert step.parameters["label_weight"] == 0.5

@@ -18,7 +18,7 @@ from graphface.nodes.learning.label_training import Examples, folded, network, t
 from graphface.nodes.learning.label_variations import example
 from graphface.nodes.masks.label_network import label_scores
 from graphface.nodes.masks.network_input import CHANNELS
-from graphface.nodes.masks.upright import HEIGHT, WIDTH
+from graphface.nodes.masks.upright_grid import HEIGHT, WIDTH
 
 
 def drawn_lesson():

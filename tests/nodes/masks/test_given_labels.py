@@ -1,4 +1,4 @@
-"""Masks that the user gives."""
+"""Labels that the user gives."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from graphface import UsageError
-from graphface.nodes.masks.hair import Hair
-from graphface.nodes.masks.override import given_hair, given_head, given_labels
-from graphface.nodes.types import HeadMasks, Segmentation
+from graphface.nodes.masks.given_labels import given_labels
+from graphface.nodes.types import Segmentation
 from graphface.testing import check_node
 
 unit = arrays(np.float32, (3, 4), elements=st.floats(0, 1, width=32))
@@ -28,7 +27,7 @@ class TestGivenLabels:
         assert given_labels(labels) is labels
 
     def test_given_wins_and_others_share(self, labels):
-        """What a given mask leaves is shared as before."""
+        """The other labels share the rest in their own proportion."""
         hair = np.zeros((3, 4), np.float32)
         hair[0, 0] = 1
         found = given_labels(labels, None, hair)
@@ -52,25 +51,16 @@ class TestGivenLabels:
         with pytest.raises(UsageError, match=r"face mask is 5 x 2 pixels, the photo 4 x 3"):
             given_labels(labels, np.zeros((2, 5), np.float32))
 
-    def test_all_given_need_nothing(self, labels):
-        """With every map given, nothing computed is asked for."""
+    def test_all_given_need_nothing_computed(self, labels):
+        """With every label given, the computed ones may be missing."""
         found = given_labels(None, labels.face, labels.hair, labels.background)
         np.testing.assert_allclose(found.face, 0.5, rtol=1e-6)
+
+    def test_neither_given_nor_computed(self, labels):
+        """The message names the operator and the labels that are missing."""
+        with pytest.raises(UsageError, match=r"masks.given_labels: .* plugged in for face, background;"):
+            given_labels(None, hair=labels.hair)
 
     def test_node(self, labels):
         """It keeps an operator's promises."""
         check_node(given_labels, labels, labels.hair)
-
-
-class TestOthers:
-    def test_head(self):
-        """Each of the three masks can be replaced on its own."""
-        zero, one = np.zeros((2, 2), np.float32), np.ones((2, 2), np.float32)
-        found = given_head(HeadMasks(zero, zero, zero), None, one)
-        assert found.normal.all()
-        assert not found.conservative.any()
-
-    def test_hair(self):
-        """A given mask is both response and mask."""
-        zero, one = np.zeros((2, 2), np.float32), np.ones((2, 2), np.float32)
-        assert given_hair(Hair(zero, zero), one).response.all()
