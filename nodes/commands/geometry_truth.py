@@ -24,7 +24,7 @@ from graphface.nodes.geometry.morphable import morphable
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
-from graphface.nodes.metrics.geometry import mean_angle
+from graphface.nodes.metrics import normal_angle
 from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
 from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import Landmarks, Mesh
@@ -105,7 +105,7 @@ def _head(head: Path, ways: list[Geometry]) -> Iterator[Accuracy]:
                 head=head.name,
                 light=light,
                 landmarks=landmark_error(mesh, way.points68, points),
-                normals=mean_angle(surface.normals, normals, label),
+                normals=normal_angle(surface.normals, normals, label),
                 depth=correlation(surface.depth[both], -depth[both]),
                 milliseconds=took,
             )

@@ -18,8 +18,7 @@ import numpy as np
 from graphface.nodes.color import decode_srgb
 from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.io.image_read import read_image
-from graphface.nodes.metrics.geometry import direction_angle
-from graphface.nodes.metrics.pictures import lmse, si_mse
+from graphface.nodes.metrics import light_angle, lmse, si_mse
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask, Normals
 
 LIGHTS = ("frontal", "left45", "right45", "top", "left80_hard", "ambient")
@@ -133,8 +132,8 @@ def light_truth(
                         robust=how,
                         head=head.folder.name,
                         light=light,
-                        mesh_degrees=direction_angle(found.direction, towards),
-                        true_degrees=direction_angle(exact.direction, towards),
+                        mesh_degrees=light_angle(found.direction, towards),
+                        true_degrees=light_angle(exact.direction, towards),
                         milliseconds=seconds * 1e3,
                     )
 

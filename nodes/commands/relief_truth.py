@@ -17,7 +17,7 @@ from graphface.nodes.commands.heads import heads_of
 from graphface.nodes.geometry.morphable import morphable
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh
-from graphface.nodes.metrics.geometry import mean_angle
+from graphface.nodes.metrics import normal_angle
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.morphable.relief import Difference, learned_relief, normal_difference, with_relief
 from graphface.nodes.morphable.storage import refined
@@ -75,4 +75,4 @@ class _Head:
 
     def degrees_off(self, model: MorphableModel) -> float:
         surface = rasterize(morphable(self.landmarks, model=model), self.photo)
-        return float(mean_angle(surface.normals, self.normals, self.mask))
+        return float(normal_angle(surface.normals, self.normals, self.mask))

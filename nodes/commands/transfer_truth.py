@@ -17,7 +17,7 @@ import numpy as np
 from graphface import Evaluator, MemoryTier, UnreadableFile, load
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_image
-from graphface.nodes.metrics.pictures import psnr
+from graphface.nodes.metrics import psnr
 from graphface.nodes.types import FloatArray, Image, Mask
 
 if TYPE_CHECKING:

@@ -25,8 +25,7 @@ from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_image
 from graphface.nodes.landmarks.facemesh import facemesh as find_landmarks
 from graphface.nodes.masks.face import face as face_mask
-from graphface.nodes.metrics.geometry import mean_angle
-from graphface.nodes.metrics.pictures import psnr, si_psnr
+from graphface.nodes.metrics import normal_angle, psnr, si_psnr
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.samples import samples
 from graphface.nodes.render.shade import shade
@@ -122,7 +121,7 @@ def _relight_head(
     unit = float(np.average(irradiance(known_scene(lights[source]), normals[covered]), weights=mask[covered]))
     with np.load(head / "aov.npz") as maps:
         true_normals = maps["normal"].astype(np.float32)
-    normal_error = mean_angle(normals, true_normals, face_label)
+    normal_error = normal_angle(normals, true_normals, face_label)
 
     make_folder(out)
     for light in LIGHTS if source == "frontal" else [name for name in ("frontal", *LIGHTS) if name != source]:

@@ -1,4 +1,4 @@
-"""New and old shading mixed far from the face."""
+"""New and old shading mixed by the distance from the face."""
 
 from __future__ import annotations
 
@@ -8,13 +8,9 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.face_scale import face_scale
-from graphface.nodes.render.beyond import core_of, nearest_core, smooth_step
+from graphface.nodes.render.nearest_face import face_core, nearest_pixel
+from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.types import Landmarks, Mask, Scene, Shading
-
-Length = Annotated[float, Field(gt=0, le=10)]
-
-
-Resolution = Annotated[int, Field(ge=8, le=256)]
 
 
 @node("render.background")
@@ -26,28 +22,30 @@ def background(
     scene: Scene,
     *,
     near: Annotated[float, Field(ge=0, le=10)] = 0.6,
-    far: Length = 2.5,
-    resolution: Resolution = 16,
+    far: Annotated[float, Field(gt=0, le=10)] = 2.5,
+    resolution: Annotated[int, Field(ge=8, le=256)] = 16,
 ) -> Shading:
-    """Mix new and old shading far from the face, which the face's light says little about.
+    """Keep more of the old shading far from the face, where the face's light says little about the light.
 
     Args:
         estimated, relit: both spread over the whole picture; H x W or H x W x 3.
         scene: `scene.background` is the share of the new shading far away.
-        near, far: distances from the face, in inter-ocular distances, between which the share falls from 1 to that.
+        near, far: distances from the face, in inter-ocular distances, between which the share falls from 1 to
+            `scene.background`.
+        resolution: pixels per inter-ocular distance of the copy on which distances are measured.
 
     Returns:
-        `relit` at the face; further away estimated + share * (relit - estimated).
+        estimated + share * (relit - estimated), float32.
     """
     if scene.background == 1 or estimated is relit:
         return relit
     copy = face_scale(landmarks, mask.shape, resolution)
-    core = core_of(copy.down(mask))
+    core = face_core(copy.down(mask))
     if core is None:
         return relit
-    _, distance = nearest_core(core)
-    fall = smooth_step((distance / copy.interocular - near) / max(far - near, 1e-3))
-    share = copy.up(1 - (1 - scene.background) * fall)
+    _, distance = nearest_pixel(core)
+    falloff = smoothstep((distance / copy.interocular - near) / max(far - near, 1e-3))
+    share = copy.up(1 - (1 - scene.background) * falloff)
     if estimated.ndim < relit.ndim:
         estimated = estimated[..., None]
     mixed: Shading = estimated + share.reshape(*share.shape, *[1] * (relit.ndim - 2)) * (relit - estimated)

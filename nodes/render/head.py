@@ -1,7 +1,7 @@
 """The rest of the head and the neck as simple solids behind the face mesh, so that they are shaded like the face.
 
 The face models end at the hairline, the jaw and the ears. A shading that only continues beyond them has no shadow of
-the chin on the neck, no shoulder side of the neck that is lit from above, and no side of the head that turns away from
+the chin on the neck, no base of the neck that light from above reaches, and no side of the head that turns away from
 the light. Solids of average size have them approximately.
 """
 
