@@ -1,4 +1,4 @@
-"""A scene from the light of a photograph, to relight one portrait like another (lighting transfer; paper, section 5.1)."""
+"""A scene from the light of a photograph: lighting transfer (paper, section 5.1)."""
 
 from __future__ import annotations
 
