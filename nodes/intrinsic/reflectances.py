@@ -25,8 +25,8 @@ _RIDGE = 1e-3
 
 @dataclass(frozen=True)
 class Palette:
-    """`label` intp H x W: the reflectance of each pixel. `intensities` float32 (k,): logarithmic. `hues` float32 (k, 3):
-    chromaticities."""
+    """`label` intp H x W, the reflectance of each pixel; `intensities` float32 (k,), the logarithms of k reflectances;
+    `hues` float32 (k, 3), their chromaticities."""
 
     label: NDArray[np.intp]
     intensities: FloatArray

@@ -1,4 +1,4 @@
-"""Arrays whose meaning stands in their type: masks, normals, depth, albedo, shading, detail; float32 all of them."""
+"""Arrays whose meaning is their type: masks, normals, depth, albedo, shading, detail; all float32."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Encoding = Literal["srgb", "linear"]
 
 
 PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff")
-"""The suffixes that pictures are written as."""
+"""Suffixes of picture files."""
 
 
 def _write_picture(pixels: Any, path: Path, text: Mapping[str, str] | None) -> None:
@@ -77,18 +77,21 @@ Albedo = Annotated[FloatArray, _map("Albedo", "H W 3", "Reflectance: color over 
 Shading = Annotated[FloatArray, _map("Shading", "...", "Irradiance, H x W or H x W x 3.", picture_unit, low=0)]
 
 
-Detail = Annotated[FloatArray, _map("Detail", "H W 3", "What rendering leaves over, signed.", picture_signed)]
+Detail = Annotated[FloatArray, _map("Detail", "H W 3", "Photo minus rendering, signed.", picture_signed)]
 
 
-Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; zero: none.")]
+Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; (0, 0, 0): none.")]
 
 
-Gain = Annotated[FloatArray, _map("Gain", "H W 3", "What rendering falls short of, as a factor.", picture_gain, low=0)]
+Gain = Annotated[FloatArray, _map("Gain", "H W 3", "Photo over rendering, a factor.", picture_gain, low=0)]
 
 
 FaceCoordinates = Annotated[
-    FloatArray, ArrayType("FaceCoordinates", "H W 2", low=0, high=1, doc="Point on the face (u, v); v up; -1 off it.")
+    FloatArray,
+    ArrayType("FaceCoordinates", "H W 2", low=-1, high=1, doc="Point on the face (u, v), 0..1, v up; -1 off it."),
 ]
 
 
-Visibility = Annotated[FloatArray, ArrayType("Visibility", "V", low=0, high=1, doc="How far each vertex is seen.")]
+Visibility = Annotated[
+    FloatArray, ArrayType("Visibility", "V", low=0, high=1, doc="How far the camera sees each vertex, 0..1.")
+]
