@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.nodes.albedo.shadow_color import shadow_colour
+from graphface.nodes.albedo.shadow_color import shadow_color
 from graphface.nodes.types import Image, Landmarks
 
 SIDE, INTEROCULAR = 96, 40.0
@@ -29,7 +29,7 @@ def spotted(light=0.2, color=ORANGE):
 
 
 def tamed(albedo, shading, mask=EVERYWHERE, interocular=INTEROCULAR):
-    return shadow_colour(albedo, Image(albedo * shading[..., None]), mask, landmarks(interocular))
+    return shadow_color(albedo, Image(albedo * shading[..., None]), mask, landmarks(interocular))
 
 
 def saturation(color):

@@ -1,4 +1,4 @@
-"""Spherical-harmonic light: the basis, the fit, and fits that have too little to go on."""
+"""The light behind a shading: found again, and bounded where there is too little to go on."""
 
 from __future__ import annotations
 
@@ -6,62 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapes import half_ball
 
 from graphface import GraphfaceWarning
-from graphface.nodes.environment import directions, solid_angles
 from graphface.nodes.harmonics import ambient, basis, sphere_points
-from graphface.nodes.sh.ball import ball
 from graphface.nodes.sh.fit import dominant_direction, fit
-from graphface.nodes.sh.from_environment import from_environment
 from graphface.nodes.sh.render import render
-from graphface.nodes.sh.rotate import rotate
-from graphface.nodes.sh.to_environment import to_environment
-from graphface.nodes.types import Environment, Lighting
+from graphface.nodes.types import Lighting
 
-
-def hemisphere(side=33):
-    """The normals of a half ball seen from the front, H x W x 3; zero beside it."""
-    y, x = np.mgrid[1 : -1 : side * 1j, -1 : 1 : side * 1j]
-    squared = x * x + y * y
-    normals = np.stack([x, y, np.sqrt(np.maximum(1 - squared, 0))], axis=2)
-    normals[squared >= 1] = 0
-    return normals.astype(np.float32)
-
-
-NORMALS = hemisphere()
+NORMALS = half_ball()
 EVERYWHERE = np.ones(NORMALS.shape[:2], np.float32)
-
-
-class TestBasis:
-    @pytest.mark.parametrize("order", [0, 1, 2, 3])
-    def test_is_orthonormal_on_the_sphere(self, order):
-        """The Gram matrix over the sphere is the identity: the constants are right."""
-        z, weights = np.polynomial.legendre.leggauss(16)
-        angles = np.arange(32) * 2 * np.pi / 32
-        ring = np.sqrt(1 - z * z)
-        points = np.stack(
-            [np.outer(ring, np.cos(angles)), np.outer(ring, np.sin(angles)), np.tile(z[:, None], 32)], axis=2
-        ).reshape(-1, 3)
-        values = basis(points, order)
-        gram = (values * np.repeat(weights * 2 * np.pi / 32, 32)[:, None]).T @ values
-        np.testing.assert_allclose(gram, np.eye((order + 1) ** 2), atol=1e-5)
-
-
-class TestRender:
-    def test_ambient_light_is_the_same_everywhere(self):
-        """An ambient light gives every normal its irradiance, and pixels without a surface 0."""
-        shading = render(ambient(0.7, order=2), NORMALS)
-        covered = NORMALS.any(axis=2)
-        np.testing.assert_allclose(shading[covered], 0.7, rtol=1e-5)
-        assert not shading[~covered].any()
-
-    def test_is_never_negative(self):
-        """Where the polynomial dips below zero there is no light."""
-        assert render(Lighting(np.float32([0, 0, 0, 1])), NORMALS).min() == 0
-
-    def test_colored_light_has_three_channels(self):
-        """Coefficients (n, 3) shade H x W x 3."""
-        assert render(ambient(np.float32([1, 0.5, 0.2])), NORMALS).shape == (*EVERYWHERE.shape, 3)
 
 
 class TestFit:
@@ -219,63 +173,3 @@ class TestDirection:
     def test_even_light_has_none(self):
         """Ambient light gives the zero vector, not a direction made of rounding."""
         assert not dominant_direction(ambient(0.7, order=2)).any()
-
-
-class TestRotate:
-    @settings(max_examples=40, deadline=None)
-    @given(st.floats(-180, 180), st.floats(-90, 90), st.floats(-180, 180), st.integers(0, 3))
-    def test_keeps_the_power_of_each_order(self, azimuth, elevation, roll, order):
-        """Turning a light mixes coefficients within an order and never changes their sum of squares."""
-        light = Lighting(np.linspace(-1, 2, (order + 1) ** 2).astype(np.float32))
-        turned = rotate(light, azimuth=azimuth, elevation=elevation, roll=roll).coefficients
-        for one in range(order + 1):
-            part = slice(one * one, (one + 1) ** 2)
-            before, after = (float(np.square(c[part]).sum()) for c in (light.coefficients, turned))
-            assert after == pytest.approx(before, rel=1e-4, abs=1e-5)
-
-    def test_signs_of_the_angles(self):
-        """Azimuth turns the viewer's light to the picture's right, elevation upwards."""
-        frontal = Lighting(np.float32([1, 0, 1, 0]))
-        np.testing.assert_allclose(dominant_direction(rotate(frontal, azimuth=90)), [1, 0, 0], atol=1e-6)
-        np.testing.assert_allclose(dominant_direction(rotate(frontal, elevation=90)), [0, 1, 0], atol=1e-6)
-        np.testing.assert_allclose(
-            dominant_direction(rotate(Lighting(np.float32([1, 0, 0, 1])), roll=90)), [0, 1, 0], atol=1e-6
-        )
-
-
-class TestEnvironment:
-    def test_even_panorama_is_ambient(self):
-        """Radiance 1 from everywhere is shading 1."""
-        light = from_environment(Environment(np.ones((32, 64, 3), np.float32)))
-        np.testing.assert_allclose(light.coefficients, ambient(np.ones(3, np.float32), 2).coefficients, atol=2e-3)
-
-    def test_there_and_back(self):
-        """A light's smoothest panorama gives the light again."""
-        light = Lighting(np.float32([2.5, 0.3, 0.4, -0.3, 0.05, 0.02, 0.04, 0.03, -0.05]))
-        again = from_environment(to_environment(light, height=128, quantity="radiance"))
-        np.testing.assert_allclose(again.coefficients[:, 1], light.coefficients, atol=2e-3)
-
-    def test_a_patch_lights_from_its_side(self):
-        """The middle column is before the face; a quarter of the width is to the picture's right."""
-        for column, expected in ((32, (0, 0, 1)), (16, (1, 0, 0)), (48, (-1, 0, 0))):
-            radiance = np.zeros((32, 64, 3), np.float32)
-            radiance[15:17, column - 1 : column + 1] = 100
-            found = dominant_direction(from_environment(Environment(radiance)))
-            np.testing.assert_allclose(found, expected, atol=0.02)
-
-    @settings(max_examples=20, deadline=None)
-    @given(st.integers(1, 40), st.integers(1, 40))
-    def test_pixels_tile_the_sphere(self, height, width):
-        """Solid angles sum to 4 pi, directions are unit vectors, whatever the size."""
-        assert solid_angles(height, width).sum() == pytest.approx(4 * np.pi)
-        np.testing.assert_allclose(np.linalg.norm(directions(height, width), axis=2), 1, atol=1e-12)
-
-
-class TestBall:
-    def test_shows_the_light_where_it_comes_from(self):
-        """Lit from the right, the ball's right is brighter; around it there is nothing."""
-        picture = ball(Lighting(np.float32([1, 0, 0, 0.5])), size=64)
-        assert picture.pixels[32, 52].mean() > picture.pixels[32, 12].mean() + 0.1
-        assert picture.alpha is not None
-        assert picture.alpha[0, 0] == 0
-        assert picture.alpha[32, 32] == 1
