@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.packs import Pack
     from graphface.registry import Registry
+    from graphface.values.files import Files
+    from graphface.values.parts import register_parts
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -53,6 +55,7 @@ _HOMES = {
     "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
+    "Files": "values.files",
     "Graph": "facade",
     "GraphfaceError": "errors",
     "GraphfaceWarning": "fallback",
@@ -70,6 +73,7 @@ _HOMES = {
     "UnwritableFile": "errors",
     "UsageError": "errors",
     "load": "facade",
+    "register_parts": "values.parts",
     "warn": "fallback",
 }
 
@@ -80,6 +84,7 @@ __all__ = [
     "DeclarationError",
     "DocumentError",
     "Evaluator",
+    "Files",
     "Formerly",
     "Graph",
     "GraphfaceError",
@@ -100,6 +105,7 @@ __all__ = [
     "UsageError",
     "load",
     "node",
+    "register_parts",
     "warn",
 ]
 

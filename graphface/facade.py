@@ -15,6 +15,7 @@ from typing import Any
 
 from graphface.cache.memory import MemoryTier
 from graphface.document.compose import Choices, compose
+from graphface.document.present_names import with_present_names
 from graphface.document.source import read_source
 from graphface.evaluate.evaluator import Evaluator, Result
 from graphface.graph.request import Request, request
@@ -54,7 +55,8 @@ def load(
             registry.add_file(Path(plugin))
     shipped = registry.graph_folders()
     choices = Choices(tuple(variants), tuple(profiles), dict(replace or {}), dict(set or {}))
-    return Graph(compose(read_source(source, shipped, registry), choices, shipped=shipped), registry)
+    composition = compose(read_source(source, shipped, registry), choices, shipped=shipped)
+    return Graph(with_present_names(composition, registry), registry)
 
 
 class Graph(WiredGraph):
@@ -67,7 +69,8 @@ class Graph(WiredGraph):
 
         Args:
             outputs: names of declared outputs, or any "node" or "node.field"; all declared ones by default.
-            evaluator: where to run and what to keep; by default one per process with a memory tier.
+            evaluator: where to run and what to keep; by default one per process, with a memory tier of the size
+                that the user has set (`graphface.settings`).
             inputs: arrays, values or paths by input name. One called `outputs` or `evaluator` goes another way:
                 `evaluator.run(graph.request({"outputs": value}))`.
 
@@ -75,7 +78,7 @@ class Graph(WiredGraph):
             InputError, UnreadableFile: an input is missing or does not fit. RunFailed: a node failed.
         """
         evaluator = evaluator if evaluator is not None else shared_evaluator()
-        return evaluator.run(request(self, inputs, outputs, evaluator.last_keys(self)))
+        return evaluator.run(request(self, inputs, outputs))
 
     def request(self, inputs: Mapping[str, Any] | None = None, outputs: Iterable[str] | None = None) -> Request:
         """What an evaluator runs, and what can be planned and explained; see `graphface.graph.request`."""

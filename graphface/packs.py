@@ -22,6 +22,7 @@ from graphface.code_line import line_of_import
 from graphface.errors import PluginError
 from graphface.fallback import warn
 from graphface.node import Operator, operator_of
+from graphface.values.files import Files
 from graphface.values.port_types import array_of
 
 if TYPE_CHECKING:
@@ -40,6 +41,8 @@ class Pack:
         operators: operator family ("intrinsic" for `intrinsic.*`) to the modules that declare it, separated by spaces
             where a family is spread over several.
         types: name used in graph files to "module:attribute".
+        files: name in `types` to "module:attribute" of a `graphface.Files`, or of a table from types to such. The name
+            in `types`, or the attribute there, must be that of the class or array type.
         graphs: the package whose folder holds shipped graph files.
         assets: "module:attribute" of tuples of `graphface.Asset`, the files that its operators fetch, separated by
             spaces.
@@ -50,6 +53,7 @@ class Pack:
     name: str
     operators: Mapping[str, str]
     types: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
     graphs: str = ""
     assets: str = ""
     formerly: Mapping[str, str] = field(default_factory=dict)
@@ -97,6 +101,11 @@ def types_in(module: ModuleType) -> dict[str, Any]:
     }
 
 
+def files_in(module: ModuleType) -> dict[Any, Files]:
+    """How a module says that its types are read from and written to files: `FILES`, a table from types to `Files`."""
+    return getattr(module, "FILES", {})
+
+
 def import_file(path: Path) -> ModuleType:
     """A plug-in file as a module.
 
@@ -126,9 +135,11 @@ def _as_pack(named: object) -> Pack:
     operators = operators_in(named)
     if not operators:
         raise TypeError("the module declares no operator; put @node on a function")
+    types = types_in(named)
     return Pack(
         named.__name__,
         operators={operator.family: named.__name__ for operator in operators.values()},
-        types={name: f"{named.__name__}:{name}" for name in types_in(named)},
+        types={name: f"{named.__name__}:{name}" for name in types},
+        files={name: f"{named.__name__}:FILES" for name, kind in types.items() if kind in files_in(named)},
         formerly={old: operator.name for operator in operators.values() for old in operator.formerly},
     )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -13,8 +14,9 @@ from typing import TYPE_CHECKING, Any
 from graphface.errors import DeclarationError, PluginError, UnknownOperator, UnknownType
 from graphface.fallback import warn
 from graphface.node import Operator, operator_of
-from graphface.packs import Pack, import_failure, import_file, installed_packs, operators_in, types_in
-from graphface.values.port_types import ANY, Atom, ListOf, PortType, port_type
+from graphface.packs import Pack, files_in, import_failure, import_file, installed_packs, operators_in, types_in
+from graphface.values.files import Files
+from graphface.values.port_types import ANY, ArrayType, Atom, ListOf, PortType, lineage, port_type
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
@@ -32,6 +34,8 @@ class Registry:
         self._added_types: dict[str, Any] = {}
         self._loaded: dict[str, dict[str, Operator]] = {}
         self._broken: dict[str, str] = {}
+        self._added_files: dict[Atom, Files] = {}
+        self._files: dict[Atom, Files | None] = {}
 
     def add(self, function: object) -> None:
         """Register one `@node` function (a notebook's own, say); a later one of the same name replaces it."""
@@ -40,8 +44,13 @@ class Registry:
             raise TypeError(f"{function!r} is not declared with @node")
         self._added[operator.name] = operator
 
+    def add_files(self, kind: Any, files: Files) -> None:
+        """Say how values of a class, or of an array type, are read from and written to files."""
+        self._added_files |= dict.fromkeys(port_type(kind).alternatives, files)
+        self._files.clear()
+
     def add_file(self, path: Path) -> list[str]:
-        """Execute a plug-in file and register every operator and type it declares; the operators' names.
+        """Execute a plug-in file and register every operator, type and `FILES` it declares; the operators' names.
 
         Raises:
             PluginError: the file is missing, fails to import, or declares no operator.
@@ -52,6 +61,8 @@ class Registry:
             raise PluginError(f"{path}: declares no operator; put @node on a function", path=path)
         self._added |= operators
         self._added_types |= types_in(module)
+        for kind, files in files_in(module).items():
+            self.add_files(kind, files)
         return sorted(operators)
 
     def operator(self, name: str) -> Operator:
@@ -121,6 +132,7 @@ class Registry:
         """A registry with everything of this one, to which more can be added without changing this one."""
         other = Registry(self._packs)
         other._added, other._added_types = dict(self._added), dict(self._added_types)
+        other._added_files = dict(self._added_files)
         other._loaded, other._broken = self._loaded, self._broken
         return other
 
@@ -142,10 +154,42 @@ class Registry:
         named = [self._attribute(where) for pack in self._packs for where in pack.assets.split()]
         return [asset for assets in named if assets is not None for asset in assets]
 
-    def type_classes(self) -> list[Any]:
-        """What the type names stand for."""
-        packed = [self._attribute(where) for pack in self._packs for where in pack.types.values()]
-        return [*self._added_types.values(), *(found for found in packed if found is not None)]
+    def files(self, kind: Atom | PortType) -> Files | None:
+        """How values of a type are read from and written to files; of a port, those of the first alternative with any.
+
+        What has no files of its own is written as the nearest base class is, or the parent of an array type, and is not
+        read: that would give a value of the base class.
+        """
+        if isinstance(kind, PortType):
+            return next((files for atom in kind.alternatives if (files := self.files(atom)) is not None), None)
+        if kind not in self._files:
+            own = ((base, self._own_files(base)) for base in lineage(kind))
+            base, found = next(((base, files) for base, files in own if files is not None), (kind, None))
+            self._files[kind] = found if found is None or base is kind else replace(found, read=None)
+        return self._files[kind]
+
+    def all_files(self) -> list[Files]:
+        """The files of every type that has any."""
+        named = [self._named_files(pack, name) for pack in self._packs for name in pack.files]
+        return [*self._added_files.values(), *(files for files in named if files is not None)]
+
+    def _own_files(self, atom: Atom) -> Files | None:
+        """The files of just this type. Only a type of the same name is imported to see whether it is this one."""
+        if atom in self._added_files:
+            return self._added_files[atom]
+        own_name = atom.name if isinstance(atom, ArrayType) else getattr(atom, "__name__", "")
+        for pack in self._packs:
+            for name in pack.files:
+                where = pack.types.get(name, "")
+                named = self._attribute(where) if own_name in (name, where.partition(":")[2]) else None
+                if named is not None and atom in port_type(named).alternatives:
+                    return self._named_files(pack, name)
+        return None
+
+    def _named_files(self, pack: Pack, name: str) -> Files | None:
+        """The files that a pack names for one of its types, alone or in a table of several types."""
+        found = self._attribute(pack.files[name])
+        return found.get(self._attribute(pack.types[name])) if isinstance(found, Mapping) else found
 
     def _named_type(self, name: str) -> PortType:
         if name == "Any":

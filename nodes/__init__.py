@@ -75,6 +75,29 @@ _TYPES = (
     "Visibility",
 )
 
+_FILES = {
+    "Albedo": "ALBEDO",
+    "Depth": "DEPTH",
+    "Detail": "DETAIL",
+    "Environment": "ENVIRONMENT",
+    "Gain": "GAIN",
+    "Image": "IMAGE",
+    "Judgements": "JUDGEMENTS",
+    "LabelWeights": "LABEL_WEIGHTS",
+    "Landmarks": "LANDMARKS",
+    "Mask": "MASK",
+    "Mesh": "MESH",
+    "MorphableModel": "MODEL",
+    "Normals": "NORMALS",
+    "Pins": "PINS",
+    "Representation": "REPRESENTATION",
+    "Scene": "SCENE",
+    "Shading": "SHADING",
+    "Texture": "TEXTURE",
+    "TexturedMesh": "TEXTURED_MESH",
+}
+"""What reads and writes the types that files can hold: constants of `graphface.nodes.io.files`."""
+
 pack = Pack(
     name="graphface",
     graphs="graphface.graphs",
@@ -88,4 +111,5 @@ pack = Pack(
         "LabelWeights": "graphface.nodes.masks.label_weights:LabelWeights",
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
     },
+    files={name: f"graphface.nodes.io.files:{constant}" for name, constant in _FILES.items()},
 )

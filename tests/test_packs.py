@@ -15,13 +15,15 @@ from dataclasses import dataclass
 from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
-from graphface import ArrayType, node
+from graphface import ArrayType, Files, node
 
 Grain = Annotated[NDArray[np.float32], ArrayType("Grain", "H W")]
 
 @dataclass(frozen=True)
 class Film:
     speed: float
+
+FILES = {Film: Files(suffixes=(".film",))}
 
 @node("film.speed", formerly=("movie.speed",))
 def speed(film: Film) -> float:
@@ -67,13 +69,16 @@ class TestEntryPoints:
         assert named(installed_packs(), "cinema").operators == {"film": "cinema_ops"}
 
     def test_module(self, install: Install) -> None:
-        """Or a module: all its operators and types, and the old names of its operators."""
+        """Or a module: all its operators and types with their files, and the old names of its operators."""
         install("filmlab", "anything = filmlab_module", filmlab_module=MODULE)
         pack = named(installed_packs(), "filmlab_module")
         registry = Registry([pack])
         assert registry.names() == ["film.make", "film.speed", "paper.grade"]
         assert str(registry.type("Film | Grain")) == "Film | Grain"
         assert registry.operator("movie.speed").name == "film.speed"
+        files = registry.files(registry.type("Film"))
+        assert files is not None
+        assert files.suffixes == (".film",)
 
     @pytest.mark.parametrize(
         ("value", "text", "reason"),
@@ -118,6 +123,7 @@ class TestBrokenModule:
             "half",
             operators={"film": "half_good half_bad", "lost": "half_bad"},
             types={"Film": "half_good:Film", "Lost": "half_bad:Lost", "Gone": "half_good:Gone"},
+            files={"Film": "half_good:FILES", "Lost": "half_bad:FILES", "Gone": "half_good:FILES"},
             assets="half_bad:ASSETS",
             graphs="half_bad.graphs",
         )
@@ -143,7 +149,7 @@ class TestBrokenModule:
         with pytest.warns(GraphfaceWarning, match="half_bad"):
             assert registry.assets() == []
         with pytest.warns(GraphfaceWarning, match="half_good:Gone"):
-            assert [kind.__name__ for kind in registry.type_classes()] == ["Film"]
+            assert [files.suffixes for files in registry.all_files()] == [(".film",)]
         with pytest.warns(GraphfaceWarning, match=r"half_bad\.graphs"):
             assert registry.graph_folders() == []
 

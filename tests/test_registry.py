@@ -2,14 +2,28 @@
 
 import sys
 from pathlib import Path
+from typing import Annotated
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from graphface import Pack, Registry, node
+from graphface import ArrayType, Files, Pack, Registry, node
 from graphface.errors import PluginError, UnknownOperator, UnknownType
+from graphface.values.port_types import ANY, ListOf, port_type
 
 PLUGIN = '''
-from graphface import node
+from graphface import Files, node
+
+class Curve:
+    pass
+
+FILES = {Curve: Files(suffixes=(".csv",))}
+
+@node("mine.curve")
+def curve() -> Curve:
+    """A class of its own, with files."""
+    return Curve()
 
 @node("mine.double")
 def double(x: float) -> float:
@@ -119,15 +133,24 @@ class TestPluginFiles:
         """A plug-in file adds its operators."""
         path = tmp_path / "plug.py"
         path.write_text(PLUGIN)
-        assert registry.add_file(path) == ["mine.double"]
+        assert registry.add_file(path) == ["mine.curve", "mine.double"]
         assert registry.operator("mine.double").function(2.0) == 4
+
+    def test_files(self, registry: Registry, tmp_path: Path) -> None:
+        """It says in FILES how its types are written."""
+        path = tmp_path / "plug.py"
+        path.write_text(PLUGIN)
+        registry.add_file(path)
+        files = registry.files(registry.operator("mine.curve").output)
+        assert files is not None
+        assert files.suffixes == (".csv",)
 
     def test_twice(self, registry: Registry, tmp_path: Path) -> None:
         """The same file may be named twice."""
         path = tmp_path / "plug.py"
         path.write_text(PLUGIN)
         registry.add_file(path)
-        assert registry.add_file(path) == ["mine.double"]
+        assert registry.add_file(path) == ["mine.curve", "mine.double"]
 
     @pytest.mark.parametrize("text", ["x = 1", "def f(:", "raise RuntimeError('no')", "import nonexistent_module"])
     def test_unusable(self, registry: Registry, tmp_path: Path, text: str) -> None:
@@ -162,3 +185,62 @@ class TestTypes:
         with pytest.raises(UnknownType) as caught:
             registry.type("Gird")
         assert caught.value.nearest[0] == "Grid"
+
+
+class Sound:
+    pass
+
+
+class Loud(Sound):
+    pass
+
+
+_WAVE = ArrayType("Wave", "N")
+Wave = Annotated[NDArray[np.float64], _WAVE]
+_TONE = ArrayType("Tone", "N", parent=_WAVE)
+SOUND_FILES = Files(lambda path: Sound(), lambda value, path: None, (".wav",))
+WAVE_FILES = Files(lambda path: np.zeros(1), lambda value, path: None, (".txt",))
+
+
+@pytest.fixture
+def sounds() -> Registry:
+    """A pack with two types that have files, and one that is broken: nobody should import it."""
+    types = {"Sound": f"{__name__}:Sound", "Curve": f"{__name__}:Wave", "Broken": "no_such_module:Broken"}
+    files = {"Sound": f"{__name__}:SOUND_FILES", "Curve": f"{__name__}:WAVE_FILES", "Broken": "no_such_module:FILES"}
+    return Registry([Pack("sounds", {}, types=types, files=files)])
+
+
+class TestFiles:
+    def test_of_a_pack(self, sounds: Registry) -> None:
+        """A type of a pack has the files that the pack names, by whatever name it goes there."""
+        assert sounds.files(Sound) is SOUND_FILES
+        assert sounds.files(_WAVE) is WAVE_FILES
+        assert "no_such_module" not in sys.modules
+
+    def test_of_a_port(self, sounds: Registry) -> None:
+        """A port has those of its first alternative that has any."""
+        assert sounds.files(port_type(float | Wave | None)) is WAVE_FILES
+        assert sounds.files(ANY) is None
+
+    @pytest.mark.parametrize("kind", [object, float, ListOf(ANY), ArrayType("Wave"), type("Sound", (), {})])
+    def test_none(self, sounds: Registry, kind: object) -> None:
+        """Others have none, those of the same name neither."""
+        assert sounds.files(kind) is None  # type: ignore[arg-type]
+
+    @pytest.mark.parametrize("kind", [Loud, _TONE])
+    def test_inherited(self, sounds: Registry, kind: object) -> None:
+        """What a type is a kind of is written alike; reading would give something less."""
+        found = sounds.files(kind)  # type: ignore[arg-type]
+        assert found is not None
+        assert found.write is not None
+        assert found.read is None
+
+    def test_added(self, sounds: Registry) -> None:
+        """A notebook adds files of its own, which win."""
+        mine, other = Files(suffixes=(".flac",)), sounds.extended()
+        assert other.files(Sound) is SOUND_FILES
+        other.add_files(Sound, mine)
+        other.add_files(Wave, mine)
+        assert other.files(Sound) is other.files(_WAVE) is mine
+        assert other.extended().files(Sound) is mine
+        assert sounds.files(Sound) is SOUND_FILES

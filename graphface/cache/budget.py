@@ -11,7 +11,7 @@ import threading
 import time
 
 from graphface.cache.folder import Folder
-from graphface.cache.whole_file import delete
+from graphface.values.whole_file import delete
 
 CREDIT_S = 86_400.0
 """How much later an entry is evicted for each second of computing that one MiB of it saves: a day."""

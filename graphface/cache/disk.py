@@ -1,9 +1,9 @@
 """The disk tier: memoized values in a folder, shared by any number of processes, killed at any moment.
 
 One file per entry and nothing else: no index, no lock, no database, hence nothing that can disagree with the files.
-`graphface.cache.folder` says which files these are, `whole_file` how they are written, `entry` what stands in one, and
-`room` which go when there are too many. Every read verifies the checksum: what is damaged, truncated or not ours is
-dropped, reported and computed again.
+`graphface.cache.folder` says which files these are, `graphface.values.whole_file` how they are written, `entry` what
+stands in one, and `budget` which go when there are too many. Every read verifies the checksum: what is damaged,
+truncated or not ours is dropped, reported and computed again.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from graphface.cache.budget import Room, keep_until
 from graphface.cache.entry import DamagedEntry, UnknownChecksum, header_length, pack, read_header, unpack
 from graphface.cache.folder import Folder
 from graphface.cache.memory import MISSING
-from graphface.cache.whole_file import NO_FOLLOW, date, delete, read, write
 from graphface.errors import UsageError
 from graphface.fallback import warn
 from graphface.values.codec import CodecError, decode, encode
+from graphface.values.whole_file import NO_FOLLOW, date, delete, read, write
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from itertools import count
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from graphface.cache.whole_file import delete
+from graphface.values.whole_file import delete, replacing
 
 MARK = "CACHEDIR.TAG"
 """The name that backup programs know to skip (bford.info/cachedir), and the sign that the folder is ours."""
@@ -98,8 +98,8 @@ class Folder:
         if not self.marked():
             # Renamed into place like an entry: a mark cut short would lock the folder for good.
             draft = self.path / f"{MARK}.{os.getpid()}.{threading.get_ident()}"
-            draft.write_text(_MARK_TEXT, "utf-8")
-            os.replace(draft, self.path / MARK)
+            with replacing(str(self.path / MARK), str(draft)):
+                draft.write_text(_MARK_TEXT, "utf-8")
         os.makedirs(shard, exist_ok=True)
 
     def files(self) -> Iterator[tuple[str, Kind]]:

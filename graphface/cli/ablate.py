@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from graphface.cli.options import Cache, GraphName, Inputs, Plugins, Profiles, Replaces, Sets, Variants, open_cache
+from graphface.cli.options import (
+    Cache,
+    CacheSize,
+    GraphName,
+    Inputs,
+    Memory,
+    Plugins,
+    Profiles,
+    Replaces,
+    Sets,
+    Variants,
+    open_cache,
+)
 
 if TYPE_CHECKING:
     from graphface.facade import Graph
@@ -35,6 +47,8 @@ def ablate(
     plugins: Plugins = [],  # noqa: B006
     threads: Annotated[int, typer.Option(min=1, help="Nodes at once; 1 keeps node times undisturbed.")] = 1,
     cache: Cache = None,
+    cache_size: CacheSize = None,
+    memory: Memory = None,
 ) -> None:
     """Compare methods: [bold]graphface ablate relight --swap intrinsic=intensity,retinex -i photo=a.jpg[/bold]
 
@@ -50,6 +64,7 @@ def ablate(
     from graphface.document.flags import read_flag
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_table, print_warnings
+    from graphface.settings import memory_budget
     from graphface.values.writing import make_folder
 
     box = _box(crop)
@@ -75,7 +90,9 @@ def ablate(
         truths=truths,
         metrics=metrics_for(declared, base.registry, metric) if truths else (),
         one_at_a_time=one_at_a_time,
-        evaluator=Evaluator(memory=MemoryTier(), disk=open_cache(cache, said), threads=threads),
+        evaluator=Evaluator(
+            memory=MemoryTier(memory_budget(memory)), disk=open_cache(cache, said, cache_size), threads=threads
+        ),
         loading=loading,
     )
     (out / "table.csv").write_text(as_csv(done), encoding="utf-8")
@@ -116,9 +133,9 @@ def read_cases(pairs: list[str]) -> list[Mapping[str, Any]]:
 def _truth(graph: Graph, declared: Any, case: Mapping[str, Any], where: Path) -> Any:
     """The true output of a case, read as the output's type."""
     from graphface.errors import UnreadableFile, UsageError
-    from graphface.graph.inputs import reader_of
 
-    reader = reader_of(declared)
+    files = graph.registry.files(declared)
+    reader = files.read if files is not None else None
     if reader is None:
         raise UsageError(f"--truth: a {declared} cannot be read from a file")
     if where.is_file():

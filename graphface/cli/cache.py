@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from graphface.cli.options import open_cache
+from graphface.cli.options import CacheSize, open_cache
 
 app = typer.Typer(help="Show, check or empty a disk cache (the folder of --cache).", no_args_is_help=True)
 Folder = Annotated[
@@ -16,9 +16,9 @@ Folder = Annotated[
 
 
 @app.command()
-def stats(folder: Folder = None) -> None:
+def stats(folder: Folder = None, cache_size: CacheSize = None) -> None:
     """Show how many entries and bytes the cache holds."""
-    found = open_cache(_given(folder), []).stats()
+    found = open_cache(_given(folder), [], cache_size).stats()
     print(f"{found.folder}: {found.entries} entries, {found.bytes / 1e6:.1f} of {found.budget_bytes / 1e6:.0f} MB")
 
 

@@ -10,6 +10,7 @@ import typer
 from graphface.cli.options import (
     Asked,
     Cache,
+    CacheSize,
     GraphName,
     Inputs,
     Plugins,
@@ -33,6 +34,7 @@ def explain(
     profiles: Profiles = [],  # noqa: B006
     plugins: Plugins = [],  # noqa: B006
     cache: Cache = None,
+    cache_size: CacheSize = None,
     run: Annotated[bool, typer.Option("--run", help="Run it too, and show milliseconds and bytes.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
@@ -47,7 +49,7 @@ def explain(
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     asked = loaded.request(read_inputs(inputs), [text.partition("=")[0] for text in output] or None)
     said: list[str] = []
-    disk = open_cache(cache, said)
+    disk = open_cache(cache, said, cache_size)
     history = History.beside(cache)
     evaluator = Evaluator(disk=disk, observers=[Sizes(), Remember(history, disk)])
     explained = explain_plan(asked, evaluator, history)

@@ -34,6 +34,14 @@ Cache = Annotated[
     Path | None,
     typer.Option("--cache", metavar="DIR", envvar="GRAPHFACE_CACHE", help="Keep results in this folder between runs."),
 ]
+CacheSize = Annotated[
+    str | None,
+    typer.Option("--cache-size", metavar="SIZE", help="What the folder may hold: 20G (GRAPHFACE_CACHE_SIZE; 10G)."),
+]
+Memory = Annotated[
+    str | None,
+    typer.Option("--memory", metavar="SIZE", help="What may be kept in memory: 4G, 500M (GRAPHFACE_MEMORY; 2GiB)."),
+]
 
 
 def load_graph(
@@ -63,24 +71,26 @@ def load_graph(
 
 
 @overload
-def open_cache(folder: None, said: list[str]) -> None: ...
+def open_cache(folder: None, said: list[str], size: str | None = None) -> None: ...
 @overload
-def open_cache(folder: Path, said: list[str]) -> DiskTier: ...
+def open_cache(folder: Path, said: list[str], size: str | None = None) -> DiskTier: ...
 @overload
-def open_cache(folder: Path | None, said: list[str]) -> DiskTier | None: ...
-def open_cache(folder: Path | None, said: list[str]) -> DiskTier | None:
-    """The disk tier of a folder; what it reports is appended to `said`. Budget: $GRAPHFACE_CACHE_BYTES or 10 GB."""
+def open_cache(folder: Path | None, said: list[str], size: str | None = None) -> DiskTier | None: ...
+def open_cache(folder: Path | None, said: list[str], size: str | None = None) -> DiskTier | None:
+    """The disk tier of a folder; what it reports is appended to `said`.
+
+    Args:
+        size: of `--cache-size`; see `graphface.settings`.
+
+    Raises:
+        UsageError: the size that is set is none.
+    """
     if folder is None:
         return None
-    import os
-
     from graphface.cache.disk import DiskTier
-    from graphface.errors import UsageError
+    from graphface.settings import cache_size
 
-    budget = os.environ.get("GRAPHFACE_CACHE_BYTES", "10000000000")
-    if not budget.isdigit():
-        raise UsageError(f"GRAPHFACE_CACHE_BYTES={budget!r}: expected a number of bytes")
-    return DiskTier(folder, int(budget), said.append)
+    return DiskTier(folder, cache_size(size), said.append)
 
 
 def read_inputs(pairs: list[str]) -> dict[str, Any]:

@@ -11,8 +11,10 @@ import typer
 
 from graphface.cli.options import (
     Cache,
+    CacheSize,
     GraphName,
     Inputs,
+    Memory,
     Plugins,
     Profiles,
     Replaces,
@@ -24,7 +26,10 @@ from graphface.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from graphface.evaluate.evaluator import Evaluator
+    from graphface.evaluate.observe import Observer
     from graphface.facade import Graph
+    from graphface.record import Record
 
 
 def run(
@@ -42,6 +47,8 @@ def run(
     threads: Annotated[int, typer.Option(min=0, help="Nodes that may run at once; 0: one per core.")] = 0,
     guard: Annotated[str, typer.Option(help="What to do about NaN and infinity: off, warn or error.")] = "error",
     cache: Cache = None,
+    cache_size: CacheSize = None,
+    memory: Memory = None,
     trace: Annotated[Path | None, typer.Option(metavar="run.json", help="Write what happened at every node.")] = None,
     peaks: Annotated[
         bool, typer.Option("--peaks", help="Measure each node's peak of memory for --trace: one thread, slower.")
@@ -59,78 +66,105 @@ def run(
     """Run a graph: [bold]graphface run relight -i photo=portrait.jpg -o relit.png[/bold]"""
     import os
 
-    from graphface.errors import UsageError
+    from graphface.cache.memory import MemoryTier
     from graphface.evaluate.evaluator import Evaluator
-    from graphface.evaluate.observe import Observer
-    from graphface.report.history import History, Remember
-    from graphface.report.terminal import ProgressBar, print_times, print_warnings
-    from graphface.report.trace import Trace
-    from graphface.values.writing import check_folder, check_output, write_output
+    from graphface.report.terminal import print_times, print_warnings
+    from graphface.settings import memory_budget
+
+    _check_options(guard, trace, peaks=peaks, maps=maps, memory=memory)
+    loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
+    given = read_inputs(inputs)
+    said: list[str] = []
+    evaluator = Evaluator(
+        memory=MemoryTier(memory_budget(memory)) if maps else None,
+        disk=open_cache(cache, said, cache_size),
+        threads=1 if peaks else threads or os.cpu_count() or 1,
+        guard=guard,  # type: ignore[arg-type]
+    )
+    records: list[Record] = []
+    try:
+        if maps:
+            run_map(loaded, output, given, maps, evaluator, records)
+        else:
+            records += run_once(loaded, output, given, evaluator, history=cache, trace=trace, peaks=peaks)
+    finally:
+        print_warnings([*(f"{r.name}: {w}" for r in records for w in r.warnings), *said])
+        if times and records:
+            print_times(records, title="all combinations" if maps else "")
+
+
+def _check_options(guard: str, trace: Path | None, *, peaks: bool, maps: list[str], memory: str | None) -> None:
+    """Refuse options that do not go together."""
+    from graphface.errors import UsageError
 
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
     if peaks and trace is None:
         raise UsageError("--peaks is measured for the trace; add --trace run.json")
-    loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
-    given = read_inputs(inputs)
-    if maps:
-        if trace is not None or peaks:
-            raise UsageError("--trace and --peaks follow one run; leave them out with --map")
-        run_map(
-            loaded, output, given, maps, threads=threads or os.cpu_count() or 1, guard=guard, cache=cache, times=times
-        )
-        return
-    files = output_files(loaded, output, given)
-    asked = loaded.request(given, files)
-    targets = asked.targets
+    if maps and trace is not None:
+        raise UsageError("--trace and --peaks follow one run; leave them out with --map")
+    if memory is not None and not maps:
+        raise UsageError("--memory is what is kept from one combination of --map to the next; one run keeps nothing")
+
+
+def run_once(
+    graph: Graph,
+    output: list[str],
+    given: dict[str, str],
+    evaluator: Evaluator,
+    *,
+    history: Path | None,
+    trace: Path | None,
+    peaks: bool,
+) -> list[Record]:
+    """One run, its outputs written when all of them are there; what became of every node.
+
+    Args:
+        history: the cache folder, beside which the run is remembered.
+    """
+    from graphface.report.history import History, Remember
+    from graphface.report.terminal import ProgressBar
+    from graphface.report.trace import Trace
+    from graphface.values.writing import check_folder, check_output, write_output
+
+    files = output_files(graph, output, given)
+    asked = graph.request(given, files)
+    types = {name: graph.type_of(target) for name, target in asked.targets.items()}
     for name, path in files.items():
-        check_output(path, loaded.type_of(targets[name]))
+        check_output(path, types[name], graph.registry.files)
     _check_kept(files.values(), given.values())
     if trace is not None:
         check_folder(trace)
-    said: list[str] = []
     tracer = Trace(peaks=peaks)
-    disk = open_cache(cache, said)
     with ProgressBar() as bar:
         observers: list[Observer] = [bar]
         if trace is not None:
             observers.append(tracer)
-        if disk is not None:
-            observers.append(Remember(History.beside(cache), disk))
-        cores = 1 if peaks else threads or os.cpu_count() or 1
-        evaluator = Evaluator(disk=disk, threads=cores, guard=guard, observers=observers)  # type: ignore[arg-type]
+        if evaluator.disk is not None:
+            observers.append(Remember(History.beside(history), evaluator.disk))
         try:
-            result = evaluator.run(asked)
+            result = evaluator.run(asked, observers)
         finally:
             if trace is not None:
                 tracer.write(trace)
     for name, path in files.items():
-        write_output(result[name], loaded.type_of(targets[name]), path, text=loaded.provenance())
-    print_warnings([*result.warnings, *said])
-    if times:
-        print_times(result.records)
+        write_output(result[name], types[name], path, graph.registry.files, text=graph.provenance())
+    return result.records
 
 
 def run_map(
-    graph: Graph,
-    output: list[str],
-    given: dict[str, str],
-    maps: list[str],
-    *,
-    threads: int,
-    guard: str,
-    cache: Path | None,
-    times: bool,
+    graph: Graph, output: list[str], given: dict[str, str], maps: list[str], evaluator: Evaluator, records: list[Record]
 ) -> None:
     """Every combination of the mapped files, one evaluator for all of them; each output as soon as it is there.
+
+    Args:
+        evaluator: gets a progress bar. records: gets what became of every node, also where some combinations fail.
 
     Raises:
         UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
     """
-    from graphface.cache.memory import MemoryTier
-    from graphface.evaluate.evaluator import Evaluator
     from graphface.evaluate.mapping import MapFailed, read_maps, run_over
-    from graphface.report.terminal import ProgressBar, print_times, print_warnings
+    from graphface.report.terminal import ProgressBar
     from graphface.values.writing import check_folder, check_output, write_output
 
     over = read_maps(maps)
@@ -138,17 +172,10 @@ def run_map(
     first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
     targets = graph.targets(first)
     for name, path in first.items():
-        check_output(path, graph.type_of(targets[name]))
-    said: list[str] = []
-    failed, records, total = [], [], 0
+        check_output(path, graph.type_of(targets[name]), graph.registry.files)
+    failed, total = [], 0
     with ProgressBar() as bar:
-        evaluator = Evaluator(
-            memory=MemoryTier(),
-            disk=open_cache(cache, said),
-            threads=threads,
-            guard=guard,  # type: ignore[arg-type]
-            observers=[bar],
-        )
+        evaluator.observers = (bar,)
         for made in run_over(graph, evaluator, over, given, targets):
             total += 1
             if made.result is None:
@@ -156,17 +183,9 @@ def run_map(
                 continue
             for name, path in output_files(graph, output, made.inputs).items():
                 check_folder(path)
-                write_output(
-                    made.result[name],
-                    graph.type_of(targets[name]),
-                    path,
-                    text=graph.provenance(),
-                )
+                kind = graph.type_of(targets[name])
+                write_output(made.result[name], kind, path, graph.registry.files, text=graph.provenance())
             records += made.result.records
-            said += [w for w in made.result.warnings if w not in said]
-    print_warnings(said)
-    if times:
-        print_times(records, title=f"{total} combinations")
     if failed:
         raise MapFailed(failed, total)
 

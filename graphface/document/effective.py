@@ -11,7 +11,7 @@ import json
 import math
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -19,11 +19,10 @@ from typing import Any
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
 from graphface.document.located import scalar
-from graphface.document.present_names import with_present_names
 from graphface.node import Operator
 from graphface.place import Place
 from graphface.registry import Registry
-from graphface.values.port_types import reader_of
+from graphface.values.parts import NUMBERED, rule_of
 
 _NOT_IN_YAML = re.compile(r"[^\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 """Characters that a YAML text may not hold unescaped, or would take for the end of a line."""
@@ -65,10 +64,9 @@ def _lines(composition: Composition, registry: Registry, origins: bool) -> Itera
 
 
 def _node_lines(node: FlatNode, operator: Operator, noted: Noted) -> Iterator[str]:
-    node = with_present_names(node, operator, {})
     yield f"  {node.name}:"
     yield noted(f"    use: {_word(operator.name)}", node.use.place)
-    wires = {port: wire for port, wire in node.wires.items() if port in operator.inputs and not wire.unplugged}
+    wires = {port: wire for port, wire in node.wires.items() if port in operator.inputs}
     if wires:
         yield f"    in: {{{', '.join(f'{port}: {_wire(wire)}' for port, wire in wires.items())}}}"
     settings = {name: s for name, s in node.settings.items() if name in operator.parameters.model_fields}
@@ -95,7 +93,8 @@ def _default(composition: Composition, registry: Registry, declared: str, defaul
     """The default; a file named by a graph in another folder, as seen from the folder of the whole graph."""
     value, place, top = default.value, default.place, composition.path
     named_in = place.source.path if place is not None else None
-    if not isinstance(value, str) or reader_of(registry.type(declared)) is None or named_in is None or top is None:
+    files = registry.files(registry.type(declared))
+    if not isinstance(value, str) or files is None or files.read is None or named_in is None or top is None:
         return value
     file = (named_in.parent / value).resolve()
     if named_in.parent.resolve() == top.parent.resolve() or not file.is_file():
@@ -119,10 +118,11 @@ def _value(value: Any) -> str:
     """A value as flow YAML; what YAML cannot say becomes the nearest that it can: a tuple a list, a path a text."""
     if isinstance(value, Enum):
         return _value(value.value)
-    if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{_quoted(str(key))}: {_value(item)}' for key, item in value.items())}}}"
-    if isinstance(value, list | tuple | set | frozenset):
+    rule = rule_of(type(value))
+    if rule is NUMBERED:
         return f"[{', '.join(_value(item) for item in value)}]"
+    if rule is not None:
+        return f"{{{', '.join(f'{_quoted(str(label))}: {_value(part)}' for label, part in rule.items(value))}}}"
     if isinstance(value, float) and not math.isfinite(value):
         return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
     if value is None or isinstance(value, bool | int | float):

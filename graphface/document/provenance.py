@@ -1,6 +1,6 @@
 """Results that carry the graph they came from: the effective document, kept inside the file.
 
-Which files can hold words is known to the value types (`to_file(..., text=)` and `text_in_file`), not to the engine.
+Which files can hold words is known to who reads and writes them (`graphface.values.files.Files`), not to the engine.
 """
 
 from __future__ import annotations
@@ -20,15 +20,12 @@ def read_provenance(path: Path, registry: Registry) -> str:
         UnreadableFile: the file holds none, or cannot be read.
     """
     why = ""
-    for kind in registry.type_classes():
-        reader = getattr(kind, "text_in_file", None)
-        if reader is None:
-            continue
+    for text_in in {files.text: None for files in registry.all_files() if files.text is not None}:
         try:
-            text = reader(path).get(KEY)
+            text = text_in(path).get(KEY)
         except UnreadableFile as error:
             why = f" ({error.reason})"
             continue
         if text:
-            return str(text)
+            return text
     raise UnreadableFile(path, f"is neither a graph file (.yaml, .yml) nor a result that carries its graph{why}")

@@ -22,7 +22,7 @@ from graphface.values.frozen import describe, first_non_finite
 
 Guard = Literal["off", "warn", "error"]
 
-Outcome = tuple[Any, BaseException | None, float, float, list[str]]
+Outcome = tuple[Any, BaseException | None, float, float, tuple[str, ...]]
 """Value, error, wall seconds, seconds of CPU (measured where an observer listens), warnings."""
 
 
@@ -52,10 +52,11 @@ class Caller:
         self._on_start = hooks.node_started
         self._observed = hooks.any
 
-    def evaluate(self, slot: int, step: Step | None, declined: Declined) -> Outcome:
-        """Call one step or load one input. Raises nothing: a worker that ended silently would leave the run waiting."""
-        said: list[str] = []
-        token = fallback.collector.set(said)
+    def evaluate(self, slot: int, step: Step | None, declined: Declined | None) -> Outcome:
+        """Call one step or load one input, on a thread that collects warnings.
+
+        Raises nothing: a worker that ended silently would leave the run waiting.
+        """
         value, error = None, None
         cpu = time.thread_time() if self._observed else 0.0
         start = time.perf_counter()
@@ -68,8 +69,7 @@ class Caller:
         seconds = time.perf_counter() - start
         if self._observed:
             cpu = time.thread_time() - cpu
-        fallback.collector.reset(token)
-        return value, error, seconds, cpu, said
+        return value, error, seconds, cpu, fallback.taken_warnings()
 
     def argument(self, argument: Argument) -> Any:
         """What is plugged into a port: a value, or a list of them."""
@@ -101,12 +101,12 @@ class Caller:
         except Exception as error:
             raise InputError(name, f"{bound.origin} cannot be read: {type(error).__name__}: {error}") from error
 
-    def _call(self, step: Step, declined: Declined) -> Any:
+    def _call(self, step: Step, declined: Declined | None) -> Any:
         if step.plain is not None:
             values, keys = self._values, self._keys
             arguments = {port: values[keys[slot]] for port, slot in step.plain}
         else:
-            plugged = {a.port: None if a.port in declined else self.argument(a) for a in step.arguments}
+            plugged = {a.port: None if declined and a.port in declined else self.argument(a) for a in step.arguments}
             arguments = {**step.absent, **plugged}
         operator = step.operator
         try:

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from graphface.cache.disk import DiskTier
 from graphface.cache.memory import MISSING, MemoryTier
 from graphface.evaluate.calling import Caller, Guard
 from graphface.evaluate.observe import Hooks, Observer
 from graphface.evaluate.run import Run
-from graphface.graph.keys import Keys
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
-from graphface.graph.wired import WiredGraph
 from graphface.record import Record, State
 from graphface.values.frozen import freeze
 
@@ -71,7 +68,6 @@ class Evaluator:
         self.guard: Guard = guard
         self.observers = tuple(observers)
         self._finite: dict[int, Any] = {}
-        self._last_keys: WeakKeyDictionary[WiredGraph, Keys] = WeakKeyDictionary()
 
     def run(self, request: Request, observers: Sequence[Observer] = ()) -> Result:
         """The values of a request's targets.
@@ -84,7 +80,6 @@ class Evaluator:
             RunFailed: a node failed; outputs that did not need it are in its `finished`.
             KeyboardInterrupt: between nodes; what was computed stays memoized.
         """
-        self._last_keys[request.graph] = request.keys
         hooks = Hooks((*self.observers, *observers))
 
         def caller(values: dict[bytes, Any]) -> Caller:
@@ -92,10 +87,6 @@ class Evaluator:
 
         values, records = Run(request, self, caller, hooks, self.threads, self.in_flight).go()
         return Result(values, records)
-
-    def last_keys(self, graph: WiredGraph) -> Keys | None:
-        """The keys of the last request of a graph, which save work in making the next one."""
-        return self._last_keys.get(graph)
 
     def find(self, key: bytes, step: Step | None) -> tuple[Any, State]:
         """A memoized value and the tier that had it, or `MISSING`."""

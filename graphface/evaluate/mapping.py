@@ -70,7 +70,7 @@ def run_over(
     for values in itertools.product(*maps.values()):
         inputs = {**given, **dict(zip(maps, values, strict=True))}
         try:
-            yield Made(inputs, evaluator.run(request(graph, inputs, asked, evaluator.last_keys(graph))))
+            yield Made(inputs, evaluator.run(request(graph, inputs, asked)))
         except GraphfaceError as error:
             yield Made(inputs, error=error)
 

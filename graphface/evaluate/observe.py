@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from graphface.code_line import own_line
-from graphface.fallback import collector, warn
+from graphface.fallback import python_warnings, warn
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
 from graphface.record import Record
@@ -88,9 +88,6 @@ def _warn_of(hook: Hook, error: Exception) -> None:
     """Tell of a broken observer, as something that is no node's fault, even where a node is being called."""
     line = own_line(error, hook)
     where = f" ({line.file}:{line.line})" if line is not None else ""
-    token = collector.set(None)
-    try:
-        name = hook.__qualname__
+    name = hook.__qualname__
+    with python_warnings():
         warn(f"observer switched off for the rest of the run: {name} raised {type(error).__name__}: {error}{where}")
-    finally:
-        collector.reset(token)

@@ -19,13 +19,14 @@ from __future__ import annotations
 import queue
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, Protocol
 
 from graphface.cache.memory import MISSING
 from graphface.errors import NodeError, RunFailed
 from graphface.evaluate.calling import Caller, Outcome
 from graphface.evaluate.observe import Hooks
+from graphface.fallback import collect_warnings, collected_warnings, python_warnings
 from graphface.graph.demand import declined_with, demanded, take
 from graphface.graph.keys import Declined
 from graphface.graph.request import Request
@@ -42,25 +43,43 @@ class Tiers(Protocol):
     def keep(self, key: bytes, step: Step | None, value: Any, seconds: float, arrays: tuple[Any, ...]) -> None: ...
 
 
-@dataclass(slots=True, eq=False)
+_NOTHING: Declined = MappingProxyType({})
+
+
 class _Task:
     """One key that is demanded in a run.
 
-    `waiting` counts the values it waits for, None before they are demanded; `waiters` wait for it. `readers` are the
-    tasks that may still read its value. `declined` are the lazy ports that its step does without; None while its rule
-    cannot be asked.
+    `waiting` counts the values it waits for, `waiters` wait for its own. `sources` are the tasks whose values it reads,
+    `readers` counts those that read its own. `declined` are the lazy ports that its step does without; None while its
+    rule cannot be asked. `heavy` where letting go of its value frees memory.
     """
 
-    key: bytes
-    slot: int
-    step: Step | None
-    waiting: int = 0
-    waiters: list[_Task] = field(default_factory=list)
-    sources: list[_Task] = field(default_factory=list)
-    readers: int = 0
-    declined: Declined | None = None
-    failed: bool = False
-    size: int = 0
+    __slots__ = (
+        "declined",
+        "failed",
+        "heavy",
+        "key",
+        "readers",
+        "size",
+        "slot",
+        "sources",
+        "step",
+        "waiters",
+        "waiting",
+    )
+
+    def __init__(self, key: bytes, slot: int, step: Step | None) -> None:
+        self.key = key
+        self.slot = slot
+        self.step = step
+        self.waiting = 0
+        self.waiters: list[_Task] = []
+        self.sources: list[_Task] = []
+        self.readers = 0
+        self.declined: Declined | None = None
+        self.failed = False
+        self.heavy = False
+        self.size = 0
 
 
 class Run:
@@ -82,6 +101,8 @@ class Run:
         self._hooks = hooks
         self._on_finish = hooks.node_finished
         self._names = request.graph.names
+        self._steps = request.graph.steps
+        self._first = len(request.graph.inputs)
         self._keys = request.keys.by_slot
         self._kept = {self._keys[ref.slot] for ref in request.targets.values()}
         self._values: dict[bytes, Any] = {}
@@ -130,7 +151,8 @@ class Run:
         key = self._keys[slot]
         task = self._tasks.get(key)
         if task is None:
-            task = self._tasks[key] = _Task(key, slot, self._request.graph.step(slot))
+            first = self._first
+            task = self._tasks[key] = _Task(key, slot, self._steps[slot - first] if slot >= first else None)
             self._demanded.append(task)
         return task
 
@@ -143,31 +165,33 @@ class Run:
             value, tier = find(task.key, step)
             if value is not MISSING:
                 self._values[task.key] = value
-                self._report(task, tier, value)
+                task.heavy = True
+                self._tell(Record(self._names[task.slot], operator_name(step), tier, task.key), step, value)
                 self._arrived(task)
             elif step is None:
                 self._ready.append(task)
             else:
-                task.declined = self._request.declined(step)
-                if task.declined is None:
+                task.declined = declined = self._request.declined(step) if step.lazy else _NOTHING
+                if declined is None:
                     self._undecided += 1
-                elif task.declined:
-                    self._report_declined(task)
-                self._await(task, demanded(step, task.declined)[0])
+                elif declined:
+                    self._tell_declined(task, step)
+                self._await(task, demanded(step, declined)[0])
         if self._spent and not self._undecided:
             self._let_go()
 
     def _await(self, task: _Task, slots: Iterable[int]) -> None:
         """Make a task ready, or ask its rule, once every one of these slots has its value."""
+        tasks, keys, values = self._tasks, self._keys, self._values
         missing = 0
         for slot in slots:
-            source = self._task(slot)
+            source = tasks.get(keys[slot]) or self._task(slot)
             if source.failed:
-                self._block(task)
+                self._stop(task, "blocked")
                 return
             source.readers += 1
             task.sources.append(source)
-            if source.key not in self._values:
+            if source.key not in values:
                 source.waiters.append(task)
                 missing += 1
         task.waiting = missing
@@ -195,12 +219,13 @@ class Run:
         """All eager inputs are there: ask the rule which lazy ones are wanted."""
         try:
             eager = {a.port: self._caller.argument(a) for a in step.arguments if not a.lazy}
-            task.declined = declined_with(step, eager)
+            with python_warnings():
+                task.declined = declined_with(step, eager)
         except Exception as error:
             self._fail(task, self._caller.error(step, error, {}))
             return
         self._undecided -= 1
-        self._report_declined(task)
+        self._tell_declined(task, step)
         wanted, _ = demanded(step, task.declined)
         self._await(task, (slot for slot in wanted if slot not in step.eager))
 
@@ -208,18 +233,19 @@ class Run:
 
     def _loop_inline(self) -> None:
         ready, evaluate = self._ready, self._caller.evaluate
-        while ready:
-            task = ready.pop()
-            self._finish(task, evaluate(task.slot, task.step, task.declined or {}))
+        with collected_warnings():
+            while ready:
+                task = ready.pop()
+                self._finish(task, evaluate(task.slot, task.step, task.declined))
 
     def _loop_threads(self) -> None:
         finished: queue.SimpleQueue[tuple[_Task, Outcome]] = queue.SimpleQueue()
         running = 0
 
         def work(task: _Task) -> None:
-            finished.put((task, self._caller.evaluate(task.slot, task.step, task.declined or {})))
+            finished.put((task, self._caller.evaluate(task.slot, task.step, task.declined)))
 
-        with ThreadPoolExecutor(self._threads, thread_name_prefix="graphface") as pool:
+        with ThreadPoolExecutor(self._threads, "graphface", collect_warnings) as pool:
             while self._ready or running:
                 while self._ready and running < (self._threads if self._live <= self._in_flight else 1):
                     pool.submit(work, self._ready.pop())
@@ -231,31 +257,34 @@ class Run:
     # --- bookkeeping, on the calling thread -------------------------------------------------------
 
     def _finish(self, task: _Task, outcome: Outcome) -> None:
-        value, error, seconds, cpu, said = outcome
+        value, error, seconds, cpu, warnings = outcome
         if error is not None:
             if not isinstance(error, NodeError):
                 raise error
             self._fail(task, error, seconds)
             return
-        self._values[task.key] = value
+        key, step = task.key, task.step
+        self._values[key] = value
         arrays: tuple[Any, ...] = ()
         if type(value) is not float:
             arrays = freeze(value)
             if arrays:
+                task.heavy = True
                 task.size = sum([a.nbytes for a in arrays])
                 self._live += task.size
-        self._tiers.keep(task.key, task.step, value, seconds, arrays)
-        self._report(task, "ran", value, seconds, cpu, said)
+        self._tiers.keep(key, step, value, seconds, arrays)
+        name = self._names[task.slot]
+        self._tell(Record(name, operator_name(step), "ran", key, seconds, cpu, task.size, "", warnings), step, value)
         self._arrived(task)
         for source in task.sources:
             source.readers -= 1
-            if not source.readers:
+            if source.heavy and not source.readers:
                 self._spent.append(source)
         if self._demanded or (self._spent and not self._undecided):
             self._demand()
 
     def _let_go(self) -> None:
-        """Drop values that no task of this run reads any more, once no rule can ask for them again."""
+        """Drop arrays that no task of this run reads any more, once no rule can ask for them again."""
         for task in self._spent:
             if not task.readers and task.key not in self._kept and self._tasks.get(task.key) is task:
                 del self._tasks[task.key]
@@ -267,10 +296,7 @@ class Run:
         self._failures.append(error)
         self._stop(task, "failed", error.reason, seconds)
 
-    def _block(self, task: _Task) -> None:
-        self._stop(task, "blocked", "", 0.0)
-
-    def _stop(self, task: _Task, state: State, reason: str, seconds: float) -> None:
+    def _stop(self, task: _Task, state: State, reason: str = "", seconds: float = 0.0) -> None:
         """Note that a task has no value, and that those waiting for it never will."""
         stack = [(task, state, reason, seconds)]
         while stack:
@@ -278,38 +304,23 @@ class Run:
             if current.failed:
                 continue
             current.failed = True
-            if current.declined is None and current.step is not None:
+            step = current.step
+            if current.declined is None and step is not None:
                 self._undecided -= 1
-            self._report(current, now, None, took, reason=why)
+            self._tell(Record(self._names[current.slot], operator_name(step), now, current.key, took, reason=why), step)
             stack.extend((waiter, "blocked", "", 0.0) for waiter in current.waiters)
             current.waiters.clear()
 
-    def _report(
-        self,
-        task: _Task,
-        state: State,
-        value: Any,
-        seconds: float = 0.0,
-        cpu: float = 0.0,
-        warnings: list[str] | tuple[str, ...] = (),
-        reason: str = "",
-    ) -> None:
-        step = task.step
-        operator = step.operator.name if step is not None else "input"
-        self._tell(
-            Record(self._names[task.slot], operator, state, task.key, seconds, cpu, task.size, reason, warnings or ()),
-            step,
-            value,
-        )
-
-    def _report_declined(self, task: _Task) -> None:
-        step = task.step
-        assert step is not None
+    def _tell_declined(self, task: _Task, step: Step) -> None:
         for port, reason in (task.declined or {}).items():
             name = f"{step.name}.{port}"
-            self._tell(Record(name, step.operator.name, "declined", task.key, reason=reason), step, None)
+            self._tell(Record(name, step.operator.name, "declined", task.key, reason=reason), step)
 
-    def _tell(self, record: Record, step: Step | None, value: Any) -> None:
+    def _tell(self, record: Record, step: Step | None, value: Any = None) -> None:
         self._records.append(record)
         for hook in self._on_finish:
             hook(record, step, value)
+
+
+def operator_name(step: Step | None) -> str:
+    return step.operator.name if step is not None else "input"

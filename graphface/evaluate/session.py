@@ -86,7 +86,7 @@ class Session:
     def preview(self, outputs: Iterable[str] | None = None) -> Result:
         """The outputs of `draft` for the reduced inputs."""
         with self._lock:
-            asked = request(self.draft, self._small, outputs, self.evaluator.last_keys(self.draft))
+            asked = request(self.draft, self._small, outputs)
             return self._remembered(self.evaluator.run(asked), full=False)
 
     def plan(self, outputs: Iterable[str] | None = None) -> list[Planned]:
@@ -95,7 +95,7 @@ class Session:
             return plan(self._request(outputs), self.evaluator)
 
     def _request(self, outputs: Iterable[str] | None) -> Request:
-        return request(self.graph, self._full, outputs, self.evaluator.last_keys(self.graph))
+        return request(self.graph, self._full, outputs)
 
     def _remembered(self, result: Result, *, full: bool) -> Result:
         """Forget states of the nodes that are older than `history`."""

@@ -7,10 +7,9 @@ their owner may still write to are copied, and a file that was written to betwee
 
 from __future__ import annotations
 
-import copy
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -21,8 +20,9 @@ from graphface.document.located import scalar
 from graphface.errors import InputError, UnreadableFile, nearest_names
 from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value
-from graphface.values.frozen import arrays_in, buffer_of, freeze
-from graphface.values.port_types import ArrayType, PortType, Reader, reader_of
+from graphface.values.files import FilesOf, Reader
+from graphface.values.frozen import buffer_of, freeze, with_arrays
+from graphface.values.port_types import ArrayType, PortType
 
 
 @dataclass(eq=False)
@@ -50,6 +50,7 @@ class Bound:
 def bind(
     inputs: Mapping[str, GraphInput],
     given: Mapping[str, Any],
+    files_of: FilesOf,
     *,
     roots: Sequence[Path] = (),
     stat_shortcut: bool = True,
@@ -59,6 +60,7 @@ def bind(
     Args:
         given: input name to a value, or to a path where the input's type can be read from a file, or to what an earlier
             call made of one.
+        files_of: how types are read from files.
         roots: folders in which relative paths are looked for: default files there only, given ones there at last.
         stat_shortcut: trust size and modification time of a file hashed before.
 
@@ -72,7 +74,7 @@ def bind(
                 name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs)
             )
     return {
-        name: _bind_one(entry, given, roots, stat_shortcut)
+        name: _bind_one(entry, given, files_of, roots, stat_shortcut)
         for name, entry in inputs.items()
         if _has_value(entry, given)
     }
@@ -86,9 +88,12 @@ def _has_value(entry: GraphInput, given: Mapping[str, Any]) -> bool:
     return entry.name in given or entry.default is not None or entry.type.optional
 
 
-def _bind_one(entry: GraphInput, given: Mapping[str, Any], roots: Sequence[Path], stat_shortcut: bool) -> Bound:
+def _bind_one(
+    entry: GraphInput, given: Mapping[str, Any], files_of: FilesOf, roots: Sequence[Path], stat_shortcut: bool
+) -> Bound:
     name, declared = entry.name, entry.type
-    reader = reader_of(declared)
+    files = files_of(declared)
+    reader = files.read if files is not None else None
     if name in given:
         value = given[name]
         if isinstance(value, Bound):
@@ -125,7 +130,7 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
     if value is not None and declared.problem(value) is not None and not _coercible(declared):
         raise InputError(entry.name, declared.problem(value) or "")
     try:
-        own = _own(value)
+        own = with_arrays(value, _own)
         digest = digest_value(("value", str(declared), own))
     except TypeError as error:
         raise InputError(entry.name, str(error)) from None
@@ -139,22 +144,9 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
     return Bound(entry.name, digest, type(value).__name__, load)
 
 
-def _own(value: Any) -> Any:
-    """The same value, with copies of the arrays, at any depth, that somebody else may write to."""
-    if all(_settled(array) for _, array in arrays_in(value)):
-        return value
-    if isinstance(value, np.ndarray):
-        return value if _settled(value) else value.copy()
-    if isinstance(value, Mapping):
-        return {key: _own(item) for key, item in value.items()}
-    if isinstance(value, tuple) and hasattr(value, "_make"):
-        return value._make(_own(item) for item in value)
-    if isinstance(value, list | tuple):
-        return type(value)(_own(item) for item in value)
-    owned = copy.copy(value)
-    for part in fields(value):
-        object.__setattr__(owned, part.name, _own(getattr(value, part.name)))
-    return owned
+def _own(array: np.ndarray) -> np.ndarray:
+    """The same array where nobody can write to it, else a copy."""
+    return array if _settled(array) else array.copy()
 
 
 def _settled(array: np.ndarray) -> bool:

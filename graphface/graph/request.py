@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
+from weakref import WeakKeyDictionary
 
 from graphface.graph.demand import declined_before
 from graphface.graph.inputs import Bound
@@ -48,14 +49,12 @@ def request(
     graph: WiredGraph,
     inputs: Mapping[str, Any],
     outputs: Iterable[str] | None = None,
-    before: Keys | None = None,
 ) -> Request:
     """Ask a graph for outputs, of inputs.
 
     Args:
         inputs: name to array, value or path, or to what `WiredGraph.bind` made of one.
         outputs: names of declared outputs, or any "node" or "node.field"; all declared ones by default.
-        before: the keys of an earlier request of this graph: what did not change is taken from them.
 
     Raises:
         InputError, UnreadableFile: an input does not fit, or an output is not there.
@@ -64,5 +63,10 @@ def request(
     by_name = graph.bind(inputs)
     bound = tuple(by_name.get(name) for name in graph.inputs)
     digests = [b.digest if b is not None else b"missing" for b in bound]
-    keys = graph.recipe.keys(digests, lambda step: declined_before(step, bound), before)
+    keys = graph.recipe.keys(digests, lambda step: declined_before(step, bound), _latest.get(graph))
+    _latest[graph] = keys
     return Request(graph, bound, targets, keys)
+
+
+_latest: WeakKeyDictionary[WiredGraph, Keys] = WeakKeyDictionary()
+"""The keys that were last made for each graph, from which the next ones are made faster; see `graphface.graph.keys`."""

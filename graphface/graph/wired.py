@@ -68,7 +68,7 @@ class WiredGraph:
 
     def bind(self, given: Mapping[str, Any], *, stat_shortcut: bool = True) -> dict[str, Bound]:
         """Graph inputs with their digests; see `graphface.graph.inputs.bind`."""
-        return bind(self.inputs, given, roots=self._default_roots, stat_shortcut=stat_shortcut)
+        return bind(self.inputs, given, self.registry.files, roots=self._default_roots, stat_shortcut=stat_shortcut)
 
     def targets(self, outputs: Iterable[str] | None = None) -> dict[str, Ref]:
         """What is asked for, as slots.

@@ -15,10 +15,8 @@ from pydantic import BaseModel, ValidationError
 
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
-from graphface.document.present_names import with_present_names
 from graphface.document.references import Target
 from graphface.errors import DeclarationError, DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
-from graphface.fallback import warn
 from graphface.graph.structure import Argument, GraphInput, Ref, Step, Structure, field_type
 from graphface.node import InputPort, Operator
 from graphface.place import Place
@@ -43,7 +41,6 @@ class _Wirer:
         self._operators: dict[str, Operator | None] = {}
         self._unusable: dict[str, str] = {}
         self._bare: dict[str, dict[str, Any]] = {}
-        self._nodes = composition.nodes
 
     def run(self) -> Structure:
         inputs = {
@@ -51,13 +48,12 @@ class _Wirer:
             for slot, (name, entry) in enumerate(self._graph.inputs.items())
         }
         operators = {name: self._operator(node) for name, node in self._graph.nodes.items()}
-        self._nodes = self._present(operators)
         types = {name: entry.type for name, entry in inputs.items()}
         types |= {name: op.output for name, op in operators.items() if op is not None}
         slots = {name: slot for slot, name in enumerate([*inputs, *self._order(operators)])}
         steps = []
         for name in list(slots)[len(inputs) :]:
-            operator, node = operators[name], self._nodes[name]
+            operator, node = operators[name], self._graph.nodes[name]
             if operator is None:
                 continue
             order = list(operator.inputs)
@@ -96,22 +92,11 @@ class _Wirer:
             self._problem(self._unusable[name], node.use.place, nearest)
         return self._operators[name]
 
-    def _present(self, operators: Mapping[str, Operator | None]) -> dict[str, FlatNode]:
-        """The nodes without names of ports and parameters that are no longer in use; each old one is warned of."""
-        warnings: dict[str, None] = {}
-        nodes = {
-            name: node if (operator := operators[name]) is None else with_present_names(node, operator, warnings)
-            for name, node in self._graph.nodes.items()
-        }
-        for warning in warnings:
-            warn(warning)
-        return nodes
-
     # --- order ------------------------------------------------------------------------------------
 
     def _order(self, operators: Mapping[str, Operator | None]) -> Iterator[str]:
         """Node names so that each stands after what it depends on (Kahn); a cycle is a problem."""
-        nodes = self._nodes
+        nodes = self._graph.nodes
         parents = {
             name: {t.name for w in node.wires.values() for t in w.targets if t.name in nodes}
             for name, node in nodes.items()
@@ -150,8 +135,7 @@ class _Wirer:
     def _arguments(
         self, node: FlatNode, operator: Operator, types: Mapping[str, PortType], slots: Mapping[str, int]
     ) -> Iterator[Argument]:
-        plugged = {name: flat for name, flat in node.wires.items() if not flat.unplugged}
-        for port_name, flat in plugged.items():
+        for port_name, flat in node.wires.items():
             port = operator.inputs.get(port_name)
             if port is None:
                 if port_name not in node.carried:
@@ -164,7 +148,7 @@ class _Wirer:
                 refs = tuple(Ref(slots[t.name], t.fields) for t in flat.targets)
                 yield Argument(port_name, refs, as_list, port.lazy)
         for port in operator.inputs.values():
-            if port.required and port.name not in plugged:
+            if port.required and port.name not in node.wires:
                 self._problem(
                     f"port {port.name!r} ({port.type}) of node {node.name!r} ({operator.name}) is not connected",
                     node.place,

@@ -155,7 +155,7 @@ def _lost(before: Identity, evaluator: Evaluator) -> Reason:
         return Reason("failed before")
     if evaluator.memory is None and evaluator.disk is None:
         return Reason("no cache")
-    evicted = evaluator.memory is not None and bytes.fromhex(before.key) in evaluator.memory.evicted
+    evicted = evaluator.memory is not None and evaluator.memory.was_evicted(bytes.fromhex(before.key))
     if evicted or (evaluator.disk is not None and before.stored):
         return Reason("evicted")
     return Reason("not kept")

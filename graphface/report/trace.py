@@ -22,6 +22,7 @@ from graphface.graph.request import Request
 from graphface.graph.structure import Step
 from graphface.record import Record
 from graphface.values.frozen import describe
+from graphface.values.parts import NUMBERED, rule_of
 from graphface.values.writing import beside
 
 _LIBRARIES = ("graphface", "numpy", "opencv-contrib-python-headless", "scipy", "scikit-image", "pydantic", "xxhash")
@@ -121,10 +122,11 @@ class Trace(Observer):
 
 def _jsonable(value: Any) -> Any:
     """A parameter as strict JSON has it; what JSON does not know (infinity, a path) is its `repr`."""
-    if isinstance(value, Mapping):
-        return {str(key): _jsonable(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
+    rule = rule_of(type(value))
+    if rule is NUMBERED:
         return [_jsonable(item) for item in value]
+    if rule is not None:
+        return {str(label): _jsonable(part) for label, part in rule.items(value)}
     known = type(value) in (str, int, bool, type(None)) or (type(value) is float and math.isfinite(value))
     return value if known else repr(value)
 

@@ -3,6 +3,7 @@
 `encode` reads the value: arrays go into a table of tensors, everything else becomes JSON in which each thing that JSON
 does not know is an object with one tag. `decode` is directed by the operator's return annotation: a class is only ever
 built because the annotation names it (or is a loaded subclass of one it names), never because a file does. No pickle.
+What a record is made of, and how it is built again, says `graphface.values.parts`.
 
     encode(Intrinsic(albedo, shading))  ->  {"0": albedo, "1": shading},
         {"record": "graphface.nodes.types.Intrinsic", "fields": {"albedo": {"array": "0"}, "shading": {"array": "1"}}}
@@ -13,9 +14,7 @@ from __future__ import annotations
 import base64
 import typing
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import fields, is_dataclass
 from enum import Enum
-from functools import cache
 from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Literal, Union
@@ -23,6 +22,7 @@ from typing import Annotated, Any, Literal, Union
 import numpy as np
 
 from graphface.errors import RunError
+from graphface.values.parts import Named, rule_of
 from graphface.values.port_types import array_of, spelled_out
 
 Tensors = dict[str, np.ndarray[Any, Any]]
@@ -97,11 +97,11 @@ class _Encoder:
             return {kind.__name__: [self.write(item, f"{where}[{i}]") for i, item in enumerate(value)]}
         if kind is dict:
             return {"dict": [[self.write(k, where), self.write(v, f"{where}[{k!r}]")] for k, v in value.items()]}
-        parts = _parts_of(value)
-        if parts is None:
+        rule = rule_of(kind)
+        if not isinstance(rule, Named):
             raise CodecError(f"a value of type {_name(kind)} cannot be stored", where)
-        written = {name: self.write(part, f"{where}.{name}") for name, part in parts.items()}
-        return {"record": _name(kind), "fields": written} | _model_extras(value)
+        written = {name: self.write(part, where + rule.step(name)) for name, part in rule.items(value)}
+        return {"record": _name(kind), "fields": written} | _about(rule, value, where)
 
     def _array(self, array: Any, where: str) -> dict[str, Any]:
         if type(array) not in (np.ndarray, np.memmap) or array.dtype.hasobject:
@@ -180,14 +180,15 @@ class _Decoder:
 
     def _record(self, data: dict[str, Any], annotation: Any, where: str) -> Any:
         kind = _class_named(data["record"], annotation, where)
-        hints = _hints(kind)
-        stored = data["fields"]
-        expected = _field_names(kind, data)
-        if set(stored) != set(expected):
-            odd = sorted(set(stored) ^ set(expected))
-            raise CodecError(f"{kind.__qualname__} has other fields now ({', '.join(odd)})", where)
-        parts = {name: self.read(stored[name], hints.get(name, Any), f"{where}.{name}") for name in expected}
-        return _build(kind, parts, data)
+        rule = rule_of(kind)
+        if not isinstance(rule, Named):
+            raise CodecError(f"nobody says what a {_name(kind)} is made of", where)
+        hints = rule.annotations(kind)
+        parts = {
+            name: self.read(part, hints.get(name, Any), where + rule.step(name))
+            for name, part in data["fields"].items()
+        }
+        return rule.build(kind, parts, data)
 
 
 _SCALARS: dict[str, Callable[[Any], Any]] = {
@@ -199,49 +200,11 @@ _SCALARS: dict[str, Callable[[Any], Any]] = {
 }
 
 
-def _parts_of(value: Any) -> dict[str, Any] | None:
-    """The fields of a dataclass, named tuple or pydantic model; None for anything else."""
-    if is_dataclass(value) and not isinstance(value, type):
-        return {f.name: getattr(value, f.name) for f in fields(value)}
-    if _is_named_tuple(type(value)):
-        return dict(value._asdict())
-    if _is_model(type(value)):
-        if getattr(value, "__pydantic_private__", None):
-            raise CodecError(f"{_name(type(value))} has private attributes, which are not stored")
-        return {**vars(value), **(value.model_extra or {})}
-    return None
-
-
-def _model_extras(value: Any) -> dict[str, Any]:
-    if not _is_model(type(value)):
-        return {}
-    return {"set": sorted(value.model_fields_set), "extra": sorted(value.model_extra or {})}
-
-
-def _field_names(kind: type, data: dict[str, Any]) -> list[str]:
-    if is_dataclass(kind):
-        return [f.name for f in fields(kind)]
-    if _is_named_tuple(kind):
-        return list(kind._fields)  # type: ignore[attr-defined]
-    return [*kind.model_fields, *data["extra"]]  # type: ignore[attr-defined]
-
-
-def _build(kind: Any, parts: dict[str, Any], data: dict[str, Any]) -> Any:
-    """An instance with exactly these fields. No constructor runs: it would copy arrays, and may not accept its own
-    results; the checksum of the entry vouches for what was valid when stored.
-    """
-    if _is_named_tuple(kind):
-        return kind(**parts)
-    instance = kind.__new__(kind)
-    if is_dataclass(kind):
-        for name, part in parts.items():
-            object.__setattr__(instance, name, part)
-        return instance
-    extra = {name: parts.pop(name) for name in data["extra"]}
-    keeps = kind.model_config.get("extra") == "allow"
-    state = {"__dict__": parts, "__pydantic_fields_set__": set(data["set"])}
-    instance.__setstate__(state | {"__pydantic_extra__": extra if keeps else None, "__pydantic_private__": None})
-    return instance
+def _about(rule: Named, value: Any, where: str) -> dict[str, Any]:
+    try:
+        return rule.about(value)
+    except ValueError as error:
+        raise CodecError(str(error), where) from None
 
 
 def _check(value: Any, annotation: Any, where: str) -> None:
@@ -316,19 +279,6 @@ def _class_named(name: str, annotation: Any, where: str) -> Any:
             return kind
         pending.extend(type.__subclasses__(kind))
     raise CodecError(f"a stored {name} is not a {annotation!r}", where)
-
-
-@cache
-def _hints(kind: type) -> dict[str, Any]:
-    return typing.get_type_hints(kind, include_extras=True)
-
-
-def _is_named_tuple(kind: type) -> bool:
-    return issubclass(kind, tuple) and hasattr(kind, "_fields")
-
-
-def _is_model(kind: type) -> bool:
-    return hasattr(kind, "model_fields") and hasattr(kind, "model_dump")
 
 
 def _as_descr(data: Any) -> Any:

@@ -16,8 +16,7 @@ import hashlib
 import os
 import struct
 import time
-from collections.abc import Callable
-from dataclasses import fields, is_dataclass
+from collections.abc import Callable, Iterable
 from enum import Enum
 from pathlib import Path, PurePath
 from typing import Any, Protocol
@@ -25,6 +24,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from graphface.errors import UnreadableFile, UsageError
+from graphface.values.parts import MODEL, Named, Rule, rule_of
 
 try:
     import xxhash
@@ -72,8 +72,8 @@ def new_hash(algorithm: str = ALGORITHM) -> Hash:
 def digest_value(value: object) -> bytes:
     """16 bytes that stand for the content of a graph input.
 
-    Arrays count by dtype, shape and C-order bytes (so NaN equals itself), dataclasses and pydantic models by type and
-    fields, a Path by its text and, where it is a file, its content.
+    Arrays count by dtype, shape and C-order bytes (so NaN equals itself), records by type and parts
+    (`graphface.values.parts`), a Path by its text and, where it is a file, its content.
 
     Raises:
         Undigestible: some part of the value has no content that could be read (an open file, an object array).
@@ -165,7 +165,10 @@ def _write_root(value: object, emit: _Emit, *, strict: bool) -> None:
 
 def _write(value: Any, emit: _Emit, strict: bool) -> None:
     """Emit the encoding of `value`: one tag, then what makes the rest self-delimiting."""
-    if value is None:
+    rule = rule_of(type(value))
+    if rule is not None:
+        _write_parts(value, rule, emit, strict)
+    elif value is None:
         emit(b"N")
     elif isinstance(value, Enum):
         _text(b"e", f"{_name(type(value))}.{value.name}", emit)
@@ -176,14 +179,8 @@ def _write(value: Any, emit: _Emit, strict: bool) -> None:
     elif isinstance(value, np.generic) and strict:
         _text(b"g", value.dtype.str, emit)
         _sized(b"b", value.tobytes(), emit)
-    elif isinstance(value, int | np.integer):
-        _write_int(int(value), emit)
-    elif isinstance(value, float | np.floating):
-        _write_float(float(value), emit, strict)
-    elif isinstance(value, complex):
-        emit(b"c")
-        _write_float(value.real, emit, strict)
-        _write_float(value.imag, emit, strict)
+    elif isinstance(value, int | np.integer | float | np.floating | complex):
+        _write_number(value, emit, strict)
     elif isinstance(value, bytes | bytearray | memoryview):
         _sized(b"b", bytes(value), emit)
     elif isinstance(value, np.ndarray):
@@ -192,34 +189,40 @@ def _write(value: Any, emit: _Emit, strict: bool) -> None:
         _text(b"p", str(value), emit)
         if strict and os.path.isfile(value):
             emit(b"+" + digest_file(Path(value)))
-    elif isinstance(value, dict):
-        _write_pairs(b"d", value.items(), emit, strict)
-    elif isinstance(value, list | tuple):
-        _write_sequence(value, emit, strict)
-    elif isinstance(value, set | frozenset):
-        emit(b"%c%d:" % (b"S", len(value)))
-        for item in sorted(_encoded(item, strict) for item in value):
-            emit(item)
-    elif is_dataclass(value) and not isinstance(value, type):
-        _text(b"D", _name(type(value)), emit)
-        _write_pairs(b"d", [(f.name, getattr(value, f.name)) for f in fields(value)], emit, strict)
-    elif hasattr(value, "model_dump") and hasattr(type(value), "model_fields"):  # pydantic, without importing it
-        _text(b"M", _name(type(value)), emit)
-        _write_pairs(b"d", {**vars(value), **(value.model_extra or {})}.items(), emit, strict)
     elif value is ...:
         emit(b".")
     else:
-        raise Undigestible(type(value), "pass plain values, arrays, dataclasses or pydantic models")
+        hint = "pass plain values, arrays, dataclasses or pydantic models, or say its parts with register_parts"
+        raise Undigestible(type(value), hint)
 
 
-def _write_int(value: int, emit: _Emit) -> None:
-    # Python refuses to spell very large integers in decimal.
-    _text(b"i", str(value) if value.bit_length() < 512 else hex(value), emit)
+def _write_parts(value: Any, rule: Rule, emit: _Emit, strict: bool) -> None:
+    kind = type(value)
+    if isinstance(value, set | frozenset):
+        emit(b"S%d:" % len(value))
+        for item in sorted(_encoded(item, strict) for item in value):
+            emit(item)
+    elif isinstance(value, list | tuple):
+        if kind not in (list, tuple):
+            _text(b"D", _name(kind), emit)
+        emit(b"%c%d:" % (b"l" if isinstance(value, list) else b"t", len(value)))
+        for item in value:
+            _write(item, emit, strict)
+    else:
+        if isinstance(rule, Named):
+            _text(b"M" if rule is MODEL else b"D", _name(kind), emit)
+        _write_pairs(rule.items(value), emit, strict)
 
 
-def _write_float(value: float, emit: _Emit, strict: bool) -> None:
-    if not strict and value.is_integer():
-        _write_int(int(value), emit)
+def _write_number(value: Any, emit: _Emit, strict: bool) -> None:
+    if isinstance(value, complex):
+        emit(b"c")
+        _write_number(value.real, emit, strict)
+        _write_number(value.imag, emit, strict)
+    elif isinstance(value, int | np.integer) or (not strict and float(value).is_integer()):
+        whole = int(value)
+        # Python refuses to spell very large integers in decimal.
+        _text(b"i", str(whole) if whole.bit_length() < 512 else hex(whole), emit)
     else:
         emit(b"f" + (b"nan-nan-" if value != value else struct.pack("<d", value)))
 
@@ -235,19 +238,10 @@ def _write_array(array: Any, emit: _Emit) -> None:
     emit(np.ascontiguousarray(array).reshape(-1).view(np.uint8).data if array.size else b"")
 
 
-def _write_sequence(items: Any, emit: _Emit, strict: bool) -> None:
-    kind = type(items)
-    if kind not in (list, tuple):
-        _text(b"D", _name(kind), emit)
-    emit(b"%c%d:" % (b"l" if isinstance(items, list) else b"t", len(items)))
-    for item in items:
-        _write(item, emit, strict)
-
-
-def _write_pairs(tag: bytes, pairs: Any, emit: _Emit, strict: bool) -> None:
+def _write_pairs(pairs: Iterable[tuple[Any, Any]], emit: _Emit, strict: bool) -> None:
     """Name-value pairs, ordered by the encoding of the name: keys of several types cannot be compared otherwise."""
     encoded = sorted(((_encoded(name, strict), value) for name, value in pairs), key=lambda pair: pair[0])
-    emit(b"%c%d:" % (tag, len(encoded)))
+    emit(b"d%d:" % len(encoded))
     for name, value in encoded:
         emit(name)
         _write(value, emit, strict)

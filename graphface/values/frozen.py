@@ -1,43 +1,57 @@
-"""Values made immutable, measured and checked as they leave a node.
+"""Values made immutable, measured, checked and described, mostly as they leave a node.
 
-One walk over a value finds its arrays; they become read-only, so that a memoized value cannot be edited behind the
-cache's back, and each distinct buffer is counted once. Scalars, by far the most common value in large graphs of small
-nodes, leave on the first line.
+A walk over a value (`graphface.values.parts`) finds its arrays; they become read-only, so that a memoized value cannot
+be edited behind the cache's back, and each distinct buffer is counted once. Scalars, by far the most common value in
+large graphs of small nodes, leave on the first line.
 """
 
 from __future__ import annotations
 
 import math
 import weakref
-from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
-from functools import cache
+from collections.abc import Callable, Iterator, MutableMapping
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
-_SCALARS = frozenset((int, bool, str, bytes, type(None)))
+from graphface.values.parts import SCALARS, Named, rule_of
 
 
 def arrays_in(value: Any) -> Iterator[tuple[str, np.ndarray]]:
     """Every array in a value with the path to it ("", "albedo", "lights[0].color")."""
-    kind = type(value)
-    if kind in _SCALARS or kind is float:
-        return
+    for path, array in _walk(value):
+        yield path.removeprefix("."), array
+
+
+def _walk(value: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """The arrays of a value with the steps to them ("", ".albedo", "[0].color")."""
     if isinstance(value, np.ndarray):
         yield "", value
-    elif is_dataclass(kind):
-        for name in field_names(kind):
-            for path, array in arrays_in(getattr(value, name)):
-                yield f"{name}.{path}".rstrip("."), array
-    elif isinstance(value, list | tuple):
-        for index, item in enumerate(value):
-            for path, array in arrays_in(item):
-                yield f"[{index}].{path}".rstrip("."), array
-    elif isinstance(value, Mapping):
-        for key, item in value.items():
-            for path, array in arrays_in(item):
-                yield f"{key}.{path}".rstrip("."), array
+        return
+    rule = rule_of(type(value))
+    if rule is None:
+        return
+    for label, part in rule.items(value):
+        kind = type(part)
+        if kind is np.ndarray:
+            yield rule.step(label), part
+        elif kind not in SCALARS:
+            for path, array in _walk(part):
+                yield rule.step(label) + path, array
+
+
+def with_arrays(value: Any, change: Callable[[np.ndarray], np.ndarray]) -> Any:
+    """The same value with `change(array)` in place of every array; what holds no array is the same object."""
+    if isinstance(value, np.ndarray):
+        return change(value)
+    rule = rule_of(type(value))
+    if rule is None:
+        return value
+    parts = [part for _, part in rule.items(value)]
+    changed = [with_arrays(part, change) for part in parts]
+    same = all(new is old for new, old in zip(changed, parts, strict=True))
+    return value if same else rule.like(value, changed)
 
 
 def freeze(value: Any, lent: frozenset[int] | set[int] = frozenset()) -> tuple[np.ndarray, ...]:
@@ -45,11 +59,10 @@ def freeze(value: Any, lent: frozenset[int] | set[int] = frozenset()) -> tuple[n
 
     Buffers whose id is in `lent` belong to the caller and keep their flags (views of them are made read-only).
     """
-    kind = type(value)
-    if kind in _SCALARS or kind is float:
+    if type(value) in SCALARS:
         return ()
     roots: dict[int, np.ndarray] = {}
-    for _, array in arrays_in(value):
+    for _, array in _walk(value):
         root = buffer_of(array)
         roots[id(root)] = root
         if id(array) not in lent:
@@ -66,7 +79,7 @@ def buffer_of(array: np.ndarray) -> np.ndarray:
     return array
 
 
-def first_non_finite(value: Any, known: dict[int, weakref.ref[Any]]) -> str | None:
+def first_non_finite(value: Any, known: MutableMapping[int, weakref.ref[Any]]) -> str | None:
     """Where a value holds NaN or infinity: how many, and the first index; None where it holds none.
 
     Args:
@@ -75,11 +88,11 @@ def first_non_finite(value: Any, known: dict[int, weakref.ref[Any]]) -> str | No
     kind = type(value)
     if kind is float:
         return None if math.isfinite(value) else f"is {value}"
-    if kind in _SCALARS:
+    if kind in SCALARS:
         return None
     if isinstance(value, np.inexact):
         return None if np.isfinite(value) else f"is {value}"
-    for path, array in arrays_in(value):
+    for path, array in _walk(value):
         if array.dtype.kind not in "fc" or array.size == 0:
             continue
         seen = known.get(id(array))
@@ -90,9 +103,8 @@ def first_non_finite(value: Any, known: dict[int, weakref.ref[Any]]) -> str | No
             continue
         bad = ~np.isfinite(array)
         index = tuple(int(i) for i in np.argwhere(bad)[0])
-        name = f".{path}" if path else ""
         where = f"the first ({array[index]}) at {list(index)}"
-        return f"{name} has {int(bad.sum())} non-finite of {array.size} values, {where}"
+        return f"{path} has {int(bad.sum())} non-finite of {array.size} values, {where}"
     return None
 
 
@@ -103,27 +115,25 @@ def is_finite(array: np.ndarray) -> bool:
     return bool(np.isfinite(array.min()) and np.isfinite(array.max()))
 
 
-@cache
-def field_names(kind: type) -> tuple[str, ...]:
-    return tuple(f.name for f in fields(kind))
-
-
 def describe(value: Any) -> str:
-    """A value in one short line: shape, dtype and range of an array, the fields of a dataclass."""
+    """A value in one short line: shape, dtype and range of an array, the parts of what has any."""
     if isinstance(value, np.ndarray):
-        text = f"{value.dtype}{list(value.shape)}"
-        if value.size and value.dtype.kind in "fiub":
-            with np.errstate(invalid="ignore"):
-                low, high = (
-                    np.nanmin(value) if np.isfinite(value).any() else np.nan,
-                    np.nanmax(value) if np.isfinite(value).any() else np.nan,
-                )
-            text += f" {low:.4g}..{high:.4g}"
-        return text
-    if is_dataclass(value) and not isinstance(value, type):
-        parts = ", ".join(f"{n}={describe(getattr(value, n))}" for n in field_names(type(value)))
-        return f"{type(value).__name__}({parts})"
-    if isinstance(value, list | tuple):
-        return f"{type(value).__name__} of {len(value)}" + (f": {describe(value[0])}, ..." if value else "")
+        return _describe_array(value)
+    rule, name = rule_of(type(value)), type(value).__name__
+    if isinstance(rule, Named):
+        return f"{name}({', '.join(f'{label}={describe(part)}' for label, part in rule.items(value))})"
+    if rule is not None:
+        first = "".join(f": {describe(part)}, ..." for _, part in islice(rule.items(value), 1))
+        return f"{name} of {len(value)}{first}"
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _describe_array(array: np.ndarray) -> str:
+    text = f"{array.dtype}{list(array.shape)}"
+    if array.size and array.dtype.kind in "fiub":
+        finite = bool(np.isfinite(array).any())
+        with np.errstate(invalid="ignore"):
+            low, high = (np.nanmin(array), np.nanmax(array)) if finite else (np.nan, np.nan)
+        text += f" {low:.4g}..{high:.4g}"
+    return text

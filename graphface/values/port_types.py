@@ -9,22 +9,17 @@ To a type checker and in a notebook a `Mask` stays a plain NumPy array; to the e
 when a graph is wired and again when a value passes. Wrapping each map in a class was tried on paper and rejected:
 every operator would begin and end by unwrapping.
 
-A class or an `ArrayType` may teach the engine some things, all optional:
-
-- `from_file(path)` reads a graph input, `to_file(value, path)` writes a graph output; where it also takes `text=`, a
-  mapping of words to keep inside the file, results carry their provenance, and `text_in_file(path)` reads it back;
-- `suffixes`, a tuple such as (".png", ".jpg"), are those that `to_file` knows: another is refused before anything runs;
-- `coerce(object)` accepts what people have at hand in a notebook (an array for an image);
-- `picture(value)` draws the value as uint8, H x W x 3, for debugging.
+A class may teach the engine two things, both optional: `coerce(object)` accepts what people have at hand in a notebook
+(an array for an image), and `picture(value)` draws the value as uint8, H x W x 3, for debugging; an `ArrayType` has
+`picture` as an argument. What reads and writes files stands apart (`graphface.values.files`): a value knows no files.
 """
 
 from __future__ import annotations
 
 import types
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, is_dataclass
-from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
 T = TypeVar("T")
@@ -51,6 +46,7 @@ class ArrayType:
         kind: NumPy dtype kinds allowed, as in `dtype.kind` ("f" floating, "i" integer, "b" boolean).
         low, high: the nominal range, for messages and pictures; values are not clipped.
         parent: the type that this one may stand in for.
+        picture: draws a value as uint8, H x W x 3.
     """
 
     name: str
@@ -60,9 +56,6 @@ class ArrayType:
     high: float | None = None
     doc: str = ""
     parent: ArrayType | None = None
-    from_file: Callable[[Path], Any] | None = None
-    to_file: Callable[[Any, Path], None] | None = None
-    suffixes: tuple[str, ...] = ()
     picture: Callable[[Any], Any] | None = None
 
     def is_a(self, other: ArrayType) -> bool:
@@ -97,7 +90,6 @@ class ListOf:
 
 
 Atom = ArrayType | ListOf | type
-Reader = Callable[[Path], Any]
 
 
 @dataclass(frozen=True)
@@ -161,9 +153,15 @@ def port_type(annotation: Any) -> PortType:
     return PortType(tuple(dict.fromkeys(atoms)), optional)
 
 
-def reader_of(declared: PortType) -> Reader | None:
-    """How a value of this type is read from a file, if it can be."""
-    return next((r for a in declared.alternatives if (r := getattr(a, "from_file", None)) is not None), None)
+def lineage(atom: Atom) -> Iterator[Atom]:
+    """A type and what it is a kind of, nearest first."""
+    if isinstance(atom, type):
+        yield from atom.__mro__
+        return
+    yield atom
+    while isinstance(atom, ArrayType) and atom.parent is not None:
+        atom = atom.parent
+        yield atom
 
 
 def is_lazy(annotation: Any) -> bool:

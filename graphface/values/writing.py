@@ -1,4 +1,4 @@
-"""Results to files: by the type's own writer, or as plain arrays.
+"""Results to files: by who writes their type (`graphface.values.files`), or as plain arrays.
 
 A file appears whole or not at all: it is written beside its place under another name and then renamed.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import secrets
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -16,15 +17,20 @@ from typing import Any
 import numpy as np
 
 from graphface.errors import RefusedOutput, UnwritableFile
+from graphface.values.files import FilesOf
 from graphface.values.frozen import arrays_in
-from graphface.values.port_types import ArrayType, PortType
+from graphface.values.port_types import ArrayType, Atom, PortType
+from graphface.values.whole_file import create, replacing
 
 
-def write_output(value: Any, declared: PortType, path: Path, *, text: Mapping[str, str] | None = None) -> None:
-    """Write a value as the suffix says: .npy (an array), .npz (every array in it), else what its type can write.
+def write_output(
+    value: Any, declared: PortType, path: Path, files_of: FilesOf, *, text: Mapping[str, str] | None = None
+) -> None:
+    """Write a value as the suffix says: .npy (an array), .npz (every array in it), else as its type is written.
 
     Args:
-        text: words to keep inside the file, where its type can.
+        files_of: how types are written.
+        text: words to keep inside the file, where that can be.
 
     Raises:
         UnwritableFile: the folder is missing or read-only, or the type cannot be written as that.
@@ -37,7 +43,7 @@ def write_output(value: Any, declared: PortType, path: Path, *, text: Mapping[st
             raise UnwritableFile(path, f"a {type(value).__name__} holds no array")
         _write_with(path, lambda beside: np.savez(beside, **named))  # type: ignore[arg-type]
     else:
-        writer = _writer(value, declared)
+        writer = _writer(value, declared, files_of)
         if writer is None:
             raise UnwritableFile(path, f"a {type(value).__name__} can only be written as .npz")
         try:
@@ -68,7 +74,7 @@ def check_folder(path: Path) -> None:
     os.unlink(name)
 
 
-def check_output(path: Path, declared: PortType) -> None:
+def check_output(path: Path, declared: PortType, files_of: FilesOf) -> None:
     """As `check_folder`, and that a value of the declared type can be written under that suffix.
 
     Raises:
@@ -77,10 +83,12 @@ def check_output(path: Path, declared: PortType) -> None:
     check_folder(path)
     known: list[str] = []
     for atom in declared.alternatives:
-        suffixes = getattr(atom, "suffixes", ())
-        if atom is object or (getattr(atom, "to_file", None) is not None and not suffixes):
-            return  # the value's own writer will tell
-        known += (*suffixes, ".npy") if _is_array(atom) else suffixes
+        files = files_of(atom)
+        suffixes = files.suffixes if files is not None and files.write is not None else None
+        if atom is object or suffixes == ():
+            return  # the writer will tell
+        known += suffixes or ()
+        known += [".npy"] if _is_array(atom) else []
     known.append(".npz")
     if path.suffix.lower() not in known:
         reason = f"no {declared} can be written as {path.suffix!r}" if path.suffix else "its name has no suffix"
@@ -107,18 +115,13 @@ def beside(path: Path) -> Iterator[Path]:
     Raises:
         UnwritableFile: the folder cannot be written to.
     """
+    unfinished = path.with_name(f".{path.stem[:100]}-{secrets.token_hex(4)}{path.suffix}")
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+        os.close(create(str(unfinished)))
     except OSError as error:
         raise UnwritableFile(path, f"cannot write into the folder: {error.strerror}") from None
-    os.close(handle)
-    try:
-        yield Path(name)
-        os.chmod(name, 0o666 & ~_umask())
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
+    with replacing(str(path), str(unfinished)):
+        yield unfinished
 
 
 def _write_with(path: Path, write: Callable[[Path], None]) -> None:
@@ -129,18 +132,12 @@ def _write_with(path: Path, write: Callable[[Path], None]) -> None:
         raise UnwritableFile(path, error.strerror or str(error)) from None
 
 
-def _writer(value: Any, declared: PortType) -> Callable[..., None] | None:
-    for atom in declared.alternatives:
-        if isinstance(atom, ArrayType) and atom.to_file is not None and atom.problem(value) is None:
-            return atom.to_file
-    return getattr(type(value), "to_file", None)
+def _writer(value: Any, declared: PortType, files_of: FilesOf) -> Callable[..., None] | None:
+    """Who writes a value: the array type that the port declares and that it is of, or its class."""
+    kinds: list[Atom] = [a for a in declared.alternatives if isinstance(a, ArrayType) and a.problem(value) is None]
+    files = (files_of(kind) for kind in (*kinds, type(value)))
+    return next((found.write for found in files if found is not None and found.write is not None), None)
 
 
 def _is_array(atom: object) -> bool:
     return isinstance(atom, ArrayType) or (isinstance(atom, type) and issubclass(np.ndarray, atom))
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

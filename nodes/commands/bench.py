@@ -207,7 +207,7 @@ def masks(
 
     from graphface import UsageError
     from graphface.nodes.commands import segmentation_truth as truth
-    from graphface.nodes.masks.label_weights import LabelWeights
+    from graphface.nodes.masks.label_weights import LabelWeights, read_weights
     from graphface.report.terminal import print_table
 
     if labels not in truth.LABELLERS:
@@ -216,7 +216,7 @@ def masks(
     if weights is not None:
         if labels != "classify":
             raise UsageError("--weights goes with --labels classify")
-        label = partial(truth.segment_photo, weights=LabelWeights.from_file(weights))
+        label = partial(truth.segment_photo, weights=LabelWeights(read_weights(weights)))
     if noise is not None:
         _print_noise(noise, label)
         return

@@ -32,9 +32,9 @@ def demo(
     import os
 
     from graphface import Evaluator, MemoryTier, load
-    from graphface.nodes.io.image_write import write_picture
+    from graphface.nodes.io.image_write import write_image, write_picture
     from graphface.report.terminal import ProgressBar, print_times, print_warnings
-    from graphface.values.writing import make_folder, write_output
+    from graphface.values.writing import make_folder
 
     make_folder(folder)
     given = photo if photo is not None else astronaut()
@@ -49,7 +49,7 @@ def demo(
             relit[scene] = results["image"]
     assert results is not None
     for scene, image in relit.items():
-        write_output(image, graph.type_of(graph.outputs["image"]), folder / f"{scene}.png")
+        write_image(image, folder / f"{scene}.png")
     write_picture(_sheet(results, relit), folder / "contact-sheet.png")
     print_times(records, title=f"{len(SCENES)} scenes")
     print_warnings(results.warnings)

@@ -27,16 +27,15 @@ def gallery(
     from graphface import Evaluator, MemoryTier, load
     from graphface.nodes.commands.demo import astronaut
     from graphface.nodes.commands.sheet import around_face, contact_sheet
-    from graphface.nodes.io.image_write import write_picture
+    from graphface.nodes.io.image_write import write_image, write_picture
     from graphface.nodes.types import Image
-    from graphface.values.writing import make_folder, write_output
+    from graphface.values.writing import make_folder
 
     scenes = scene or shipped_scenes()
     for files in (photo or [], scenes):
         _check_names(files)
     graph = load("relight", profiles=profile or ())
     make_folder(folder)
-    kind = graph.type_of(graph.outputs["image"])
     photos: list[Path | None] = [*photo] if photo else [None]
     for given in photos:
         name = "astronaut" if given is None else given.stem
@@ -50,7 +49,7 @@ def gallery(
             if not cells:
                 cells.append((name, Image.picture(found["photo"])[near]))
             cells.append((path.stem, Image.picture(found["image"])[near]))
-            write_output(found["image"], kind, folder / f"{name}-{path.stem}.png")
+            write_image(found["image"], folder / f"{name}-{path.stem}.png")
         write_picture(contact_sheet(cells, columns=columns, width=300), folder / f"{name}-sheet.png")
     print(f"wrote {len(photos) * len(scenes)} pictures and {len(photos)} sheets to {folder}/")
 

@@ -7,7 +7,6 @@ strip after a directory that Pillow encodes.
 
 from __future__ import annotations
 
-import os
 import secrets
 import struct
 import zlib
@@ -25,6 +24,7 @@ from graphface import UnwritableFile, warn
 from graphface.nodes.color import encode_srgb
 from graphface.nodes.io.image_text import KEYWORD, packed, xmp_packet
 from graphface.nodes.types import FileFormat, FloatArray, Image
+from graphface.values.whole_file import replacing
 
 QUALITY = 95
 """Of JPEG and WebP. JPEG keeps full color resolution (4:4:4): chroma subsampling bleeds at lips and brows."""
@@ -114,14 +114,10 @@ def replace_file(path: Path, write: Callable[[Path], None]) -> None:
     """
     beside = path.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}.part")
     try:
-        write(beside)
-        os.replace(beside, path)
+        with replacing(str(path), str(beside)):
+            write(beside)
     except OSError as error:
-        beside.unlink(missing_ok=True) if path.parent.is_dir() else None
         raise UnwritableFile(path, _why(path, error)) from error
-    except BaseException:
-        beside.unlink(missing_ok=True)
-        raise
 
 
 def _why(path: Path, error: OSError) -> str:

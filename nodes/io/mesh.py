@@ -9,6 +9,7 @@ import numpy as np
 
 from graphface import UnwritableFile, UsageError
 from graphface.nodes.face_coordinates import mesh_uv
+from graphface.nodes.io.files import MESHES
 from graphface.nodes.types import Image, Mesh, Texture
 
 
@@ -24,8 +25,8 @@ def write_mesh(mesh: Mesh, path: Path, texture: Texture | None = None) -> None:
     except ImportError:
         raise UsageError("writing meshes needs trimesh: pip install 'graphface[models]'") from None
     path = Path(path)
-    if path.suffix.lower() not in Mesh.suffixes:
-        raise UnwritableFile(path, f"a mesh is written as {', '.join(Mesh.suffixes)}")
+    if path.suffix.lower() not in MESHES:
+        raise UnwritableFile(path, f"a mesh is written as {', '.join(MESHES)}")
     made = trimesh.Trimesh(mesh.vertices, mesh.triangles, vertex_normals=mesh.normals, process=False)
     if texture is not None:
         made.visual = _visual(trimesh, mesh, texture, per_vertex=path.suffix.lower() == ".ply")

@@ -28,10 +28,6 @@ class LabelWeights:
 
     arrays: Weights
 
-    @classmethod
-    def from_file(cls, path: Path) -> LabelWeights:
-        return cls(read_weights(path))
-
 
 @cache
 def shipped_weights() -> Weights:

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -90,18 +89,6 @@ class MorphableModel:
     def directions(self) -> FloatArray:
         """Identity, then expression: float32 (K, V, 3)."""
         return np.concatenate([self.identity.directions, self.expression.directions])
-
-    @classmethod
-    def from_file(cls, path: Path) -> MorphableModel:
-        from graphface.nodes.morphable.storage import load_model
-
-        return load_model(path)
-
-    @staticmethod
-    def to_file(model: MorphableModel, path: Path) -> None:
-        from graphface.nodes.morphable.storage import save_model
-
-        save_model(model, path)
 
 
 def no_basis(vertices: int) -> Basis:

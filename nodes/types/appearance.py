@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,14 +63,6 @@ class TexturedMesh:
     mesh: Mesh
     texture: Texture
 
-    suffixes = Mesh.suffixes
-
-    @staticmethod
-    def to_file(textured: TexturedMesh, path: Path) -> None:
-        from graphface.nodes.io.mesh import write_mesh
-
-        write_mesh(textured.mesh, path, textured.texture)
-
 
 @dataclass(frozen=True)
 class Texture:
@@ -91,9 +81,3 @@ class Texture:
         """The texture over grey where nothing was seen."""
         seen = texture.seen[..., None]
         return Image.picture(texture.image.with_pixels(texture.image.pixels * seen + 0.5 * (1 - seen)))
-
-    suffixes = Image.suffixes
-
-    @staticmethod
-    def to_file(texture: Texture, path: Any) -> None:
-        Image.to_file(replace(texture.image, alpha=texture.seen), path)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,65 +23,58 @@ FloatArray = NDArray[np.float32]
 Encoding = Literal["srgb", "linear"]
 
 
-PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff")
-"""Suffixes of picture files."""
-
-
-def _write_picture(pixels: Any, path: Path, text: Mapping[str, str] | None) -> None:
-    from graphface.nodes.io.image_write import write_picture
-
-    write_picture(pixels, path, text=text)
-
-
-def _mask_from_file(path: Path) -> FloatArray:
-    from graphface.nodes.color import channel_mean
-    from graphface.nodes.io.image_read import read_image
-
-    return channel_mean(read_image(path).pixels)
-
-
-def _map(name: str, shape: str, doc: str, picture: Any, **more: Any) -> ArrayType:
-    def to_file(value: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
-        _write_picture(picture(value), path, text)
-
-    return ArrayType(name, shape, doc=doc, picture=picture, to_file=to_file, suffixes=PICTURES, **more)
-
-
 Mask = Annotated[
     FloatArray,
-    _map("Mask", "H W", "Coverage, 0 outside to 1 inside.", picture_unit, low=0, high=1, from_file=_mask_from_file),
+    ArrayType("Mask", "H W", doc="Coverage, 0 outside to 1 inside.", picture=picture_unit, low=0, high=1),
 ]
 
 
 Normals = Annotated[
     FloatArray,
-    _map(
-        "Normals", "H W 3", "Unit normals in the camera frame; (0, 0, 0): no surface.", picture_normals, low=-1, high=1
+    ArrayType(
+        "Normals",
+        "H W 3",
+        doc="Unit normals in the camera frame; (0, 0, 0): no surface.",
+        picture=picture_normals,
+        low=-1,
+        high=1,
     ),
 ]
 
 
 Depth = Annotated[
     FloatArray,
-    _map(
-        "Depth", "H W", "z in the camera frame, pixels, larger is nearer; 0 where there is no surface.", picture_depth
+    ArrayType(
+        "Depth",
+        "H W",
+        doc="z in the camera frame, pixels, larger is nearer; 0 where there is no surface.",
+        picture=picture_depth,
     ),
 ]
 
 
-Albedo = Annotated[FloatArray, _map("Albedo", "H W 3", "Reflectance: color over shading.", picture_albedo, low=0)]
+Albedo = Annotated[
+    FloatArray, ArrayType("Albedo", "H W 3", doc="Reflectance: color over shading.", picture=picture_albedo, low=0)
+]
 
 
-Shading = Annotated[FloatArray, _map("Shading", "...", "Irradiance, H x W or H x W x 3.", picture_unit, low=0)]
+Shading = Annotated[
+    FloatArray, ArrayType("Shading", "...", doc="Irradiance, H x W or H x W x 3.", picture=picture_unit, low=0)
+]
 
 
-Detail = Annotated[FloatArray, _map("Detail", "H W 3", "Photo minus rendering, signed.", picture_signed)]
+Detail = Annotated[
+    FloatArray, ArrayType("Detail", "H W 3", doc="Photo minus rendering, signed.", picture=picture_signed)
+]
 
 
 Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; (0, 0, 0): none.")]
 
 
-Gain = Annotated[FloatArray, _map("Gain", "H W 3", "Photo over rendering, a factor.", picture_gain, low=0)]
+Gain = Annotated[
+    FloatArray,
+    ArrayType("Gain", "H W 3", doc="Photo over rendering, a factor.", picture=picture_gain, low=0),
+]
 
 
 FaceCoordinates = Annotated[

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -61,12 +60,6 @@ class Pins:
     """
 
     points: FloatArray
-
-    @classmethod
-    def from_file(cls, path: Path) -> Pins:
-        from graphface.nodes.io.pins import read_pins
-
-        return read_pins(path)
 
     @classmethod
     def coerce(cls, value: Any) -> Pins:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -55,18 +54,6 @@ class Landmarks:
         """Distance between the outer eye corners, in pixels: the unit of every face-relative length."""
         left, right = {"facemesh468": (33, 263), "ibug68": (36, 45)}[self.scheme]
         return float(np.linalg.norm(self.points[left] - self.points[right]))
-
-    @classmethod
-    def from_file(cls, path: Path) -> Landmarks:
-        from graphface.nodes.io.landmarks import read_landmarks
-
-        return read_landmarks(path)
-
-    @staticmethod
-    def to_file(landmarks: Landmarks, path: Path) -> None:
-        from graphface.nodes.io.landmarks import write_landmarks
-
-        write_landmarks(landmarks, path)
 
 
 @dataclass(frozen=True)
@@ -124,14 +111,6 @@ class Mesh:
     mirror: NDArray[np.int32] | None = None
     facemesh: NDArray[np.int32] | None = None
     fit: FitRecord | None = None
-
-    suffixes = (".obj", ".ply", ".glb", ".gltf")
-
-    @staticmethod
-    def to_file(mesh: Mesh, path: Path) -> None:
-        from graphface.nodes.io.mesh import write_mesh
-
-        write_mesh(mesh, path)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,18 +52,6 @@ class Environment:
     """
 
     radiance: FloatArray
-
-    @classmethod
-    def from_file(cls, path: Path) -> Environment:
-        from graphface.nodes.io.panorama import read_panorama
-
-        return read_panorama(path)
-
-    @staticmethod
-    def to_file(environment: Environment, path: Path) -> None:
-        from graphface.nodes.io.panorama import write_panorama
-
-        write_panorama(environment, path)
 
     @staticmethod
     def picture(environment: Environment) -> NDArray[np.uint8]:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.color import encode_srgb
-from graphface.nodes.types.arrays import PICTURES, Encoding, FloatArray
+from graphface.nodes.types.arrays import Encoding, FloatArray
 from graphface.nodes.types.pictures import as_bytes
 
 
@@ -50,8 +48,6 @@ class Image:
     encoding: Encoding = "srgb"
     file: FileFormat = FileFormat()
 
-    suffixes = PICTURES
-
     @property
     def height(self) -> int:
         return int(self.pixels.shape[0])
@@ -63,24 +59,6 @@ class Image:
     def with_pixels(self, pixels: FloatArray, encoding: Encoding | None = None) -> Image:
         """The same picture with other pixels: alpha and what the file carried are kept."""
         return replace(self, pixels=pixels.astype(np.float32, copy=False), encoding=encoding or self.encoding)
-
-    @classmethod
-    def from_file(cls, path: Path) -> Image:
-        from graphface.nodes.io.image_read import read_image
-
-        return read_image(path)
-
-    @staticmethod
-    def to_file(image: Image, path: Path, text: Mapping[str, str] | None = None) -> None:
-        from graphface.nodes.io.image_write import write_image
-
-        write_image(image, path, text=text)
-
-    @staticmethod
-    def text_in_file(path: Path) -> dict[str, str]:
-        from graphface.nodes.io.image_text import read_text
-
-        return read_text(path)
 
     @classmethod
     def coerce(cls, value: object) -> Image:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal
 
 
@@ -28,9 +27,3 @@ class Judgements:
     """All comparisons of one picture."""
 
     pairs: tuple[Judgement, ...]
-
-    @classmethod
-    def from_file(cls, path: Path) -> Judgements:
-        from graphface.nodes.io.judgements import read_judgements
-
-        return read_judgements(path)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from graphface.nodes.types.appearance import DetailMap
 from graphface.nodes.types.arrays import Albedo, Mask, Shading
@@ -34,15 +33,3 @@ class Representation:
     estimated: Shading
     spread: Shading
     detail: DetailMap
-
-    @classmethod
-    def from_file(cls, path: Path) -> Representation:
-        from graphface.nodes.io.representation import read_representation
-
-        return read_representation(path)
-
-    @staticmethod
-    def to_file(representation: Representation, path: Path) -> None:
-        from graphface.nodes.io.representation import write_representation
-
-        write_representation(representation, path)

@@ -19,11 +19,11 @@ from hypothesis import strategies as st
 
 from graphface import UsageError
 from graphface.cache import folder as folder_module
-from graphface.cache import whole_file
 from graphface.cache.disk import DiskTier
 from graphface.cache.folder import MARK
 from graphface.cache.memory import MISSING
 from graphface.nodes.types import Image
+from graphface.values import whole_file
 
 sys.path.insert(0, os.path.dirname(__file__))
 import writer

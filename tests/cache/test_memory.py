@@ -1,5 +1,8 @@
 """The memory tier holds what is worth most per byte, within its budget, counting every array once."""
 
+import platform
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -94,7 +97,7 @@ class TestBudget:
                 tier.get(key(number))
             tier.put(key(number), held, seconds, held)
             assert tier.bytes <= tier.budget
-            alive = {id(a): a.nbytes for k in list(tier._values) for a in tier._values[k]}
+            alive = {id(a): a.nbytes for held in tier._held.values() for a in held.arrays}
             assert tier.bytes == sum(alive.values()) + 200 * len(tier)
 
 
@@ -149,7 +152,66 @@ class TestEviction:
         for number in (1, 2):
             held = array(40)
             tier.put(key(number), held, 1.0, (held,))
-        assert tier.evicted == {key(1)}
+        assert tier.was_evicted(key(1))
+        assert not tier.was_evicted(key(2))
+
+    def test_forgotten(self) -> None:
+        """Only the last evictions are remembered: a tier that is used for weeks does not grow."""
+        tier = MemoryTier(budget=50 * KIB)
+        for number in range(20_000):
+            tier.put(key(number), 1.0, 1.0)
+        tier.clear()
+        assert len(tier._evicted) <= 4096
+        assert tier.was_evicted(key(19_999))
+        assert not tier.was_evicted(key(0))
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only glibc can be asked to give memory back")
+class TestResident:
+    """What a process holds, in blocks of 1 MB, which glibc keeps once it has freed a larger one."""
+
+    PROGRAM = """
+import resource
+import numpy as np
+from graphface.cache.memory import MemoryTier
+
+def resident():
+    return int(open("/proc/self/statm").read().split()[1]) * resource.getpagesize() / 1e6
+
+def fill(tier, count):
+    for number in range(count):
+        held = np.ones(1 << 20, np.uint8)
+        tier.put(number.to_bytes(8, "big"), held, 1.0, (held,))
+
+large = np.ones(30 << 20, np.uint8)
+del large
+tier = MemoryTier(budget=300 << 20)
+before = resident()
+"""
+
+    def resident(self, program: str) -> list[float]:
+        done = subprocess.run(
+            [sys.executable, "-c", self.PROGRAM + program], capture_output=True, text=True, timeout=60
+        )
+        assert done.returncode == 0, done.stderr
+        return [float(part) for part in done.stdout.split()]
+
+    def test_clear(self) -> None:
+        """Clearing a tier gives its memory back."""
+        before, full, after = self.resident(
+            "fill(tier, 200)\nfull = resident()\ntier.clear()\nprint(before, full, resident())"
+        )
+        assert full > before + 200
+        assert after < before + 20
+
+    def test_large_eviction(self) -> None:
+        """So does a large value that pushes out many others."""
+        before, full, after = self.resident(
+            "fill(tier, 200)\nfull = resident()\nlarge = np.zeros(290 << 20, np.uint8)\n"
+            "tier.put(b'large', large, 1e9, (large,))\nprint(before, full, resident())"
+        )
+        assert full > before + 200
+        assert after < before + 20  # pages of zeros that nobody has written to are not there yet
 
 
 class TestThreads:
@@ -168,4 +230,8 @@ class TestThreads:
             thread.start()
         for thread in threads:
             thread.join()
-        assert tier.bytes == sum(v.nbytes for v in tier._values.values()) + 200 * len(tier) <= tier.budget
+        assert (
+            tier.bytes
+            == sum(v.nbytes for held in tier._held.values() for v in held.arrays) + 200 * len(tier)
+            <= tier.budget
+        )

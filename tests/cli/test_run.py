@@ -209,3 +209,33 @@ class TestInterrupted:
         assert "Traceback" not in err
         assert "interrupted" in err
         assert sorted(p.name for p in tmp_path.iterdir()) == ["cache", "slow.yaml"]
+
+
+class TestSizes:
+    @pytest.mark.parametrize(("flag", "more"), [("--memory", ["--map", "x={folder}"]), ("--cache-size", [])])
+    def test_no_size(self, run: Run, tmp_path: Path, flag: str, more: list[str]) -> None:
+        """A size that is none names the flag; nothing is run."""
+        (tmp_path / "1").write_text("")
+        more = [part.format(folder=tmp_path) for part in more]
+        said = run("-o", tmp_path / "{x}.npy" if more else tmp_path / "a.npy", flag, "much", "--cache", tmp_path, *more)
+        assert said.code == 2
+        assert said.err == f"error: {flag}: expected a size such as 2G, 500M or a number of bytes, got 'much'\n"
+
+    def test_variable(self, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Or the variable."""
+        monkeypatch.setenv("GRAPHFACE_CACHE_SIZE", "much")
+        said = run("-o", tmp_path / "a.npy", "--cache", tmp_path / "cache")
+        assert (said.code, said.err.partition(":")[2].partition(":")[0].strip()) == (2, "GRAPHFACE_CACHE_SIZE")
+
+    def test_cache_size(self, run: Run, graphface: Callable[..., object], tmp_path: Path) -> None:
+        """A disk cache keeps no more than it may."""
+        cache = tmp_path / "cache"
+        assert run("-o", tmp_path / "a.npy", "--cache", cache, "--cache-size", "10").code == 0
+        said = graphface("cache", "stats", "--cache", cache, "--cache-size", "5M")
+        assert said.out.endswith("0 entries, 0.0 of 5 MB\n")
+
+    def test_memory_without_map(self, run: Run, tmp_path: Path) -> None:
+        """One run keeps nothing in memory beyond itself, so the flag would do nothing."""
+        said = run("-o", tmp_path / "a.npy", "--memory", "1G")
+        assert said.code == 2
+        assert "--map" in said.err

@@ -157,7 +157,6 @@ class TestChoices:
 
     def test_effective_text(self, renamed: Registry) -> None:
         """The effective document has the present names."""
-
         text = told(renamed, TEXT)[0].effective(origins=False)
         assert told(renamed, text)[1] == []
 

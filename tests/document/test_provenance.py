@@ -10,6 +10,7 @@ import pytest
 from graphface import DocumentError, UnreadableFile, load
 from graphface.cli import main
 from graphface.document.provenance import KEY, read_provenance
+from graphface.nodes.io.image_write import write_image
 from graphface.nodes.types import Image, Mask, Normals
 from graphface.registry import default_registry
 from graphface.values.port_types import port_type
@@ -39,7 +40,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "halve.yaml").write_text(GRAPH)
     (tmp_path / "encode.yaml").write_text(ENCODE)
     pixels = np.random.default_rng(0).random((48, 40, 3)).astype(np.float32)
-    Image.to_file(Image(pixels), tmp_path / "photo.png")
+    write_image(Image(pixels), tmp_path / "photo.png")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -58,7 +59,7 @@ def command(capsys: pytest.CaptureFixture[str]) -> Callable[..., tuple[int, str]
 
 def picture_with(path: Path, text: str) -> Path:
     """A picture that carries some text as its graph."""
-    Image.to_file(Image(np.zeros((4, 4, 3), np.float32)), path, text={KEY: text})
+    write_image(Image(np.zeros((4, 4, 3), np.float32)), path, text={KEY: text})
     return path
 
 
@@ -90,7 +91,7 @@ class TestCarried:
         from graphface.nodes.types import FileFormat
 
         photo = Image(np.random.default_rng(1).random((20, 20, 3)).astype(np.float32))
-        Image.to_file(replace(photo, file=FileFormat(bits=16)), folder / "deep.png")
+        write_image(replace(photo, file=FileFormat(bits=16)), folder / "deep.png")
         command("run", "halve.yaml", "-i", "photo=deep.png", "-o", "first.png")
         assert command("run", "first.png", "-i", "photo=deep.png", "-o", "second.png")[0] == 0
         assert (folder / "second.png").read_bytes() == (folder / "first.png").read_bytes()
@@ -99,8 +100,10 @@ class TestCarried:
     def test_maps(self, tmp_path: Path, declared: Any, shape: tuple[int, ...]) -> None:
         """Drawings of masks, normals and the like hold it too."""
         path = tmp_path / "map.png"
-        write_output(np.zeros(shape, np.float32), port_type(declared), path, text={KEY: "graphface: 1\n"})
-        assert read_provenance(path, default_registry()) == "graphface: 1\n"
+        registry = default_registry()
+        value, kind = np.zeros(shape, np.float32), port_type(declared)
+        write_output(value, kind, path, registry.files, text={KEY: "graphface: 1\n"})
+        assert read_provenance(path, registry) == "graphface: 1\n"
 
     def test_any_characters(self, tmp_path: Path) -> None:
         """Texts in any script come back."""
@@ -173,7 +176,7 @@ class TestHostile:
     def test_default(self, folder: Path, command: Any, name: str, tmp_path_factory: pytest.TempPathFactory) -> None:
         """A default outside the working folder and the shipped graphs is not read."""
         secret = tmp_path_factory.mktemp("elsewhere") / "secret.png"
-        Image.to_file(Image(np.ones((4, 4, 3), np.float32)), secret)
+        write_image(Image(np.ones((4, 4, 3), np.float32)), secret)
         quoted = name.replace("SECRET", str(secret)).replace("\0", "\\0")
         text = ENCODE.replace("photo: Image", f'photo: {{type: Image, default: "{quoted}"}}')
         picture_with(folder / "evil.png", text)

@@ -1,6 +1,7 @@
 """Observers look on; one that breaks is switched off and the run goes on."""
 
 import threading
+import warnings
 from typing import Any
 
 import pytest
@@ -77,7 +78,8 @@ class TestBroken:
                 raise LookupError
 
         (hook,) = Hooks([Together()]).node_started
-        with pytest.warns(GraphfaceWarning) as told:
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
             threads = [threading.Thread(target=hook, args=("a", None)) for _ in range(4)]
             for thread in threads:
                 thread.start()

@@ -7,20 +7,15 @@ import numpy as np
 import pytest
 from toys import toy_registry
 
-from graphface import ArrayType, Graph, Pack, Registry, UnreadableFile, load
+from graphface import Files, Graph, Pack, Registry, UnreadableFile, load
 from graphface.errors import InputError
 
 
 class Note:
-    """A type that is read from a file, and accepts a list of words."""
+    """A type that is read from a file (see below), and accepts a list of words."""
 
     def __init__(self, text: str) -> None:
         self.text = text
-
-    @classmethod
-    def from_file(cls, path: Path) -> "Note":
-        os.environ["GRAPHFACE_TEST_READS"] = str(int(os.environ.get("GRAPHFACE_TEST_READS", "0")) + 1)
-        return cls(path.read_text())
 
     @classmethod
     def coerce(cls, value: object) -> "Note":
@@ -29,10 +24,17 @@ class Note:
         return cls(" ".join(value))
 
 
+def read_note(path: Path) -> Note:
+    os.environ["GRAPHFACE_TEST_READS"] = str(int(os.environ.get("GRAPHFACE_TEST_READS", "0")) + 1)
+    return Note(path.read_text())
+
+
 @pytest.fixture
 def registry() -> Registry:
     toys = toy_registry()
-    return Registry([*toys._packs, Pack("notes", {}, types={"Note": f"{__name__}:Note"})])
+    registry = Registry([*toys._packs, Pack("notes", {}, types={"Note": f"{__name__}:Note"})])
+    registry.add_files(Note, Files(read_note))
+    return registry
 
 
 @pytest.fixture(autouse=True)
@@ -160,12 +162,3 @@ class TestDefaults:
         )
         (tmp_path / "top.yaml").write_text("graphface: 1\nnodes: {s: {use: sub/g.yaml}}\noutputs: {y: s}\n")
         assert load(tmp_path / "top.yaml", registry=registry).run()["y"].text == "inner"
-
-
-def test_array_type_reader() -> None:
-    """An array type with a reader is read from files too."""
-    from graphface.graph.inputs import reader_of
-    from graphface.values.port_types import PortType
-
-    assert reader_of(PortType((ArrayType("A", from_file=np.load),))) is np.load
-    assert reader_of(PortType((ArrayType("A"),))) is None

@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphface import Cosmetic, Evaluator, Graph, MemoryTier, Registry, load, node
-from graphface.graph.request import request
 
 Load = Callable[..., Graph]
 
@@ -170,28 +169,25 @@ class TestInputs:
     def test_back_and_forth(self, loaded: Load) -> None:
         """A graph given one input, another and the first again has the first's keys again."""
         graph = loaded(self.SAME, "{i: Any}")
-        first = graph.request({"i": 1})
-        second = request(graph, {"i": 2}, before=first.keys)
-        third = request(graph, {"i": 1}, before=second.keys)
-        assert first.keys.by_slot == third.keys.by_slot != second.keys.by_slot
+        first, second, third = (graph.request({"i": i}).keys.by_slot for i in (1, 2, 1))
+        assert first == third != second
 
     def test_never_written_to(self, loaded: Load) -> None:
-        """Keys made from earlier ones leave those as they were: another thread may be running by them."""
+        """Keys from which others are made stay as they were: another thread may be running by them."""
         graph = loaded("  x: {use: toy.positive, in: {a: i, extra: i}}", "{i: float}")
         first = graph.request({"i": -1.0})
         before, declined = list(first.keys.by_slot), dict(first.keys.declined)
-        request(graph, {"i": 5.0}, before=first.keys)
+        graph.request({"i": 5.0})
         assert (list(first.keys.by_slot), dict(first.keys.declined)) == (before, declined)
 
     def test_from_earlier_ones(self, loaded: Load) -> None:
         """Keys made from earlier ones are those made from nothing, decisions included."""
-        graph = loaded("  x: {use: toy.positive, in: {a: i, extra: j}}", "{i: float, j: float}")
-        for i, j in ((-1.0, 1.0), (5.0, 1.0), (5.0, 2.0), (-1.0, 2.0)):
-            afresh = graph.request({"i": i, "j": j}).keys
-            for other in ((-1.0, 1.0), (5.0, 2.0)):
-                earlier = graph.request(dict(zip("ij", other, strict=True))).keys
-                found = request(graph, {"i": i, "j": j}, before=earlier).keys
-                assert (found.by_slot, found.declined) == (afresh.by_slot, afresh.declined)
+        text = "  x: {use: toy.positive, in: {a: i, extra: j}}"
+        graph = loaded(text, "{i: float, j: float}")
+        for i, j in ((-1.0, 1.0), (5.0, 1.0), (5.0, 2.0), (-1.0, 2.0), (-1.0, 1.0)):
+            found = graph.request({"i": i, "j": j}).keys
+            afresh = loaded(text, "{i: float, j: float}").request({"i": i, "j": j}).keys
+            assert (found.by_slot, found.declined) == (afresh.by_slot, afresh.declined)
 
 
 class TestCode:

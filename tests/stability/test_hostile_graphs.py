@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from graphface import DocumentError, Graph, Registry, UnreadableFile, UsageError, load
 from graphface.cli.run import output_files
+from graphface.nodes.io.image_write import write_image
 from graphface.nodes.types import Image
 
 HARMLESS = "graphface: 1\nname: secret\ninputs: {x: float}\nnodes: {n: {use: toy.add, in: {a: x}}}\noutputs: {n: n}\n"
@@ -28,7 +29,7 @@ def house(tmp_path: Path) -> Path:
     (tmp_path / "secret.yaml").write_text(HARMLESS)
     (tmp_path / "plugin.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'w').close()\n")
     (home / "plugin.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'w').close()\n")
-    Image.to_file(Image(np.zeros((4, 4, 3), np.float32)), tmp_path / "secret.png")
+    write_image(Image(np.zeros((4, 4, 3), np.float32)), tmp_path / "secret.png")
     return home
 
 

@@ -24,8 +24,8 @@ class TestArraysIn:
         value = [Box(a), {"k": (b, Box(Box(c)))}, "text", None, 3]
         assert [(path, array.size) for path, array in arrays_in(value)] == [
             ("[0].inner", 1),
-            ("[1].k.[0]", 2),
-            ("[1].k.[1].inner.inner", 3),
+            ("[1].k[0]", 2),
+            ("[1].k[1].inner.inner", 3),
         ]
 
     def test_plain(self) -> None:

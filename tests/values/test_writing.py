@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from graphface.errors import RefusedOutput, UnwritableFile
+from graphface.values.files import Files
 from graphface.values.port_types import ANY, ArrayType, PortType
 from graphface.values.writing import beside, check_folder, check_output, make_folder, write_output
 
@@ -18,44 +19,48 @@ class Two:
 
 
 class Stubborn:
-    def to_file(self, path: Path) -> None:
-        raise PermissionError(13, "Permission denied")
+    """What refuses to be written."""
 
 
-DRAWN = ArrayType("Drawn", "H W", to_file=lambda value, path: None, suffixes=(".png",))
+def refuse(value: Stubborn, path: Path) -> None:
+    raise PermissionError(13, "Permission denied")
+
+
+DRAWN = ArrayType("Drawn", "H W")
+FILES = {DRAWN: Files(write=lambda value, path: None, suffixes=(".png",)), Stubborn: Files(write=refuse)}
 
 
 class TestWriting:
     def test_npy(self, tmp_path: Path) -> None:
         """.npy holds the array as it is."""
         value = np.arange(6, dtype=np.int16).reshape(2, 3)
-        write_output(value, ANY, tmp_path / "a.npy")
+        write_output(value, ANY, tmp_path / "a.npy", FILES.get)
         np.testing.assert_array_equal(np.load(tmp_path / "a.npy", allow_pickle=False), value)
 
     def test_npz(self, tmp_path: Path) -> None:
         """.npz holds every array of a value by its path."""
-        write_output(Two(np.zeros(2), np.ones(3)), ANY, tmp_path / "a.npz")
+        write_output(Two(np.zeros(2), np.ones(3)), ANY, tmp_path / "a.npz", FILES.get)
         with np.load(tmp_path / "a.npz") as stored:
             assert {name: stored[name].shape for name in stored} == {"left": (2,), "right": (3,)}
 
     def test_mode(self, tmp_path: Path) -> None:
         """The file has the mode that the user's umask asks for, not that of a temporary file."""
         (tmp_path / "plain").touch()
-        write_output(np.zeros(1), ANY, tmp_path / "a.npy")
+        write_output(np.zeros(1), ANY, tmp_path / "a.npy", FILES.get)
         assert (tmp_path / "a.npy").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
     @pytest.mark.parametrize(("value", "name"), [(3.0, "a.npz"), (3.0, "a.png"), (Stubborn(), "a.txt"), ("x", "a.npy")])
     def test_unwritable(self, tmp_path: Path, value: object, name: str) -> None:
         """A value that cannot be written as asked is an error that names the file."""
         with pytest.raises(UnwritableFile) as caught:
-            write_output(value, PortType((type(value),)), tmp_path / name)
+            write_output(value, PortType((type(value),)), tmp_path / name, FILES.get)
         assert caught.value.path == tmp_path / name
         assert list(tmp_path.iterdir()) == []
 
     def test_missing_folder(self, tmp_path: Path) -> None:
         """So is a folder that is not there."""
         with pytest.raises(UnwritableFile):
-            write_output(np.zeros(1), ANY, tmp_path / "none" / "a.npy")
+            write_output(np.zeros(1), ANY, tmp_path / "none" / "a.npy", FILES.get)
 
 
 class TestBeside:
@@ -104,7 +109,7 @@ class TestCheckOutput:
     )
     def test_fine(self, tmp_path: Path, declared: PortType, name: str) -> None:
         """A suffix that a writer knows, or may know."""
-        check_output(tmp_path / name, declared)
+        check_output(tmp_path / name, declared, FILES.get)
 
     @pytest.mark.parametrize(
         ("declared", "name"),
@@ -119,15 +124,7 @@ class TestCheckOutput:
     def test_refused(self, tmp_path: Path, declared: PortType, name: str) -> None:
         """A suffix that none knows is refused, and those known are named."""
         with pytest.raises(RefusedOutput, match=r"\.npz$"):
-            check_output(tmp_path / name, declared)
-
-    def test_suffixes_of_pictures(self) -> None:
-        """The suffixes that picture types promise are those that pictures are written as."""
-        from graphface.nodes.io.image_write import SUFFIXES
-        from graphface.nodes.types import Image
-        from graphface.nodes.types.arrays import PICTURES
-
-        assert set(SUFFIXES) == set(PICTURES) == set(Image.suffixes)
+            check_output(tmp_path / name, declared, FILES.get)
 
 
 class TestMakeFolder:

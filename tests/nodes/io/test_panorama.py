@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from graphface import UnreadableFile
 from graphface.nodes.io.exr import read_exr, write_exr
+from graphface.nodes.io.panorama import read_panorama, write_panorama
 from graphface.nodes.types import Environment
 
 
@@ -54,13 +55,13 @@ def zipped(path, radiance):
 class TestEnvironmentFiles:
     def test_exr_is_exact(self, panorama, tmp_path):
         """Floats go through OpenEXR unchanged."""
-        Environment.to_file(panorama, tmp_path / "sky.exr")
-        np.testing.assert_array_equal(Environment.from_file(tmp_path / "sky.exr").radiance, panorama.radiance)
+        write_panorama(panorama, tmp_path / "sky.exr")
+        np.testing.assert_array_equal(read_panorama(tmp_path / "sky.exr").radiance, panorama.radiance)
 
     def test_hdr_is_near(self, panorama, tmp_path):
         """Radiance HDR keeps a shared exponent: one percent of the brightest channel."""
-        Environment.to_file(panorama, tmp_path / "sky.hdr")
-        again = Environment.from_file(tmp_path / "sky.hdr").radiance
+        write_panorama(panorama, tmp_path / "sky.hdr")
+        again = read_panorama(tmp_path / "sky.hdr").radiance
         np.testing.assert_allclose(again, panorama.radiance, atol=0.01 * panorama.radiance.max())
 
     def test_zip_and_half(self, tmp_path):
@@ -73,16 +74,16 @@ class TestEnvironmentFiles:
     def test_holes_and_negatives_become_dark(self, tmp_path):
         """Radiance is finite and not negative, whatever the file says."""
         write_exr(np.full((2, 4, 3), -1, np.float32) * np.float32([1, np.nan, -2]), tmp_path / "sky.exr")
-        np.testing.assert_array_equal(Environment.from_file(tmp_path / "sky.exr").radiance[0, 0], [0, 0, 2])
+        np.testing.assert_array_equal(read_panorama(tmp_path / "sky.exr").radiance[0, 0], [0, 0, 2])
 
     @pytest.mark.parametrize("name", ["sky.exr", "sky.hdr"])
     def test_missing_and_foreign_files(self, name, tmp_path):
         """The error is one of ours, and names the file."""
         with pytest.raises(UnreadableFile, match=name):
-            Environment.from_file(tmp_path / name)
+            read_panorama(tmp_path / name)
         (tmp_path / name).write_bytes(b"not a picture")
         with pytest.raises(UnreadableFile, match=name):
-            Environment.from_file(tmp_path / name)
+            read_panorama(tmp_path / name)
 
     @settings(max_examples=60, deadline=None)
     @given(st.integers(0, 2000), st.binary(min_size=1, max_size=8))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from graphface import GraphfaceWarning, UnreadableFile, UnwritableFile
+from graphface.nodes.io.landmarks import read_landmarks, write_landmarks
 from graphface.nodes.landmark_schemes import UnusableLandmarks
 from graphface.nodes.landmarks.given import given
 from graphface.nodes.types import Image, Landmarks
@@ -25,8 +26,8 @@ class TestFiles:
     def test_round_trip(self, tmp_path, suffix, count, scheme):
         """Written points are read back; .pts has no depth."""
         points = face(count, scheme)
-        Landmarks.to_file(points, tmp_path / f"a{suffix}")
-        back = Landmarks.from_file(tmp_path / f"a{suffix}")
+        write_landmarks(points, tmp_path / f"a{suffix}")
+        back = read_landmarks(tmp_path / f"a{suffix}")
         axes = 2 if suffix == ".pts" else 3
         np.testing.assert_allclose(back.points[:, :axes], points.points[:, :axes], atol=1e-4)
         assert back.scheme == scheme
@@ -35,13 +36,13 @@ class TestFiles:
         """iBUG's (1, 1) is the centre of the first pixel, our (0, 0)."""
         rows = "".join(f"{i + 1} 1\n" for i in range(68))
         (tmp_path / "a.pts").write_text("version: 1\nn_points:  68\n{\n" + rows + "}\n")
-        np.testing.assert_array_equal(Landmarks.from_file(tmp_path / "a.pts").points[:2], [[0, 0, 0], [1, 0, 0]])
+        np.testing.assert_array_equal(read_landmarks(tmp_path / "a.pts").points[:2], [[0, 0, 0], [1, 0, 0]])
 
     def test_csv_with_heading_and_comments(self, tmp_path):
         """A heading, comments, blank lines and semicolons do not disturb."""
         rows = "".join(f"{i};{i + 1}  # point {i}\n\n" for i in range(68))
         (tmp_path / "a.csv").write_text("x;y\n" + rows)
-        assert Landmarks.from_file(tmp_path / "a.csv").points[5].tolist() == [5, 6, 0]
+        assert read_landmarks(tmp_path / "a.csv").points[5].tolist() == [5, 6, 0]
 
     @pytest.mark.parametrize(
         ("name", "content", "reason"),
@@ -60,25 +61,25 @@ class TestFiles:
         """A file that holds no such points is refused with the line, where there is one."""
         (tmp_path / name).write_text(content)
         with pytest.raises(UnreadableFile, match=reason):
-            Landmarks.from_file(tmp_path / name)
+            read_landmarks(tmp_path / name)
 
     def test_binary_as_text(self, tmp_path):
         """A picture given for points is an answer, not a traceback."""
         (tmp_path / "a.csv").write_bytes(bytes(range(256)))
         with pytest.raises(UnreadableFile):
-            Landmarks.from_file(tmp_path / "a.csv")
+            read_landmarks(tmp_path / "a.csv")
 
     def test_no_code_from_npy(self, tmp_path):
         """Pickled objects in .npy are refused."""
         np.save(tmp_path / "a.npy", np.array([{}], dtype=object), allow_pickle=True)
         with pytest.raises(UnreadableFile):
-            Landmarks.from_file(tmp_path / "a.npy")
+            read_landmarks(tmp_path / "a.npy")
 
     @pytest.mark.parametrize("path", ["a.txt", "none/a.csv", "none/a.npy"])
     def test_unwritable(self, tmp_path, path):
         """Unknown suffixes and missing folders are named."""
         with pytest.raises(UnwritableFile):
-            Landmarks.to_file(face(), tmp_path / Path(path))
+            write_landmarks(face(), tmp_path / Path(path))
 
 
 class TestGiven:

@@ -7,6 +7,7 @@ import pytest
 
 import graphface
 from graphface.assets.asset import AssetUnavailable
+from graphface.nodes.io.panorama import write_panorama
 from graphface.nodes.types import Environment
 from graphface.nodes.types.image import image_from_array
 
@@ -96,7 +97,7 @@ class TestEnvironmentLight:
     def test_either_format(self, relit, tmp_path):
         """The same panorama as OpenEXR gives the same picture, but for the 8 bits of an .hdr."""
         radiance = sky((1.0, 0.7, 0.4), 8)
-        Environment.to_file(Environment(radiance.astype(np.float32)), tmp_path / "sky.exr")
+        write_panorama(Environment(radiance.astype(np.float32)), tmp_path / "sky.exr")
         one = relit(str(tmp_path / "sky.exr"))["image"].pixels
         other = relit(str(write_hdr(tmp_path / "sky.hdr", radiance)))["image"].pixels
         np.testing.assert_allclose(one, other, atol=0.01)

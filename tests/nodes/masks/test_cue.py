@@ -10,7 +10,7 @@ from portraits import landmarks_at, portrait
 
 from graphface import GraphfaceWarning
 from graphface.nodes.masks.cue import cue
-from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights, write_weights
+from graphface.nodes.masks.label_weights import LabelWeights, read_weights, shipped_weights, write_weights
 from graphface.nodes.masks.network_input import CHANNELS, SKIN, mirror_image, shown
 from graphface.nodes.masks.upright import HEIGHT, WIDTH, upright_of
 from graphface.nodes.types import Image
@@ -153,5 +153,5 @@ class TestWeights:
         """A file as `graphface models labels` writes it does as well as the shipped one, being the same."""
         photo, landmarks, _ = portrait()
         write_weights(shipped_weights(), {}, tmp_path / "mine.safetensors")
-        found = cue(photo, landmarks, LabelWeights.from_file(tmp_path / "mine.safetensors"))
+        found = cue(photo, landmarks, LabelWeights(read_weights(tmp_path / "mine.safetensors")))
         np.testing.assert_array_equal(found.face, cue(photo, landmarks).face)

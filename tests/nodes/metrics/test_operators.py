@@ -13,8 +13,9 @@ from hypothesis.extra.numpy import arrays
 
 import graphface
 from graphface.nodes import metrics
+from graphface.nodes.io.judgements import read_judgements
 from graphface.nodes.metrics import operators
-from graphface.nodes.types import Image, Judgements, Landmarks
+from graphface.nodes.types import Image, Landmarks
 
 HIGHER = {metrics.psnr: 120, metrics.si_psnr: 120, metrics.ssim: 1, metrics.ms_ssim: 1}
 LOWER = {metrics.si_mse: 0, metrics.lmse: 0}
@@ -138,7 +139,7 @@ class TestJudgements:
         path = tmp_path / "other.json"
         path.write_text(text)
         with pytest.raises(graphface.UnreadableFile, match=r"other\.json"):
-            Judgements.from_file(path)
+            read_judgements(path)
 
 
 class TestOperators:

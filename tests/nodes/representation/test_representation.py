@@ -10,11 +10,12 @@ import pytest
 from graphface import UnreadableFile
 from graphface.nodes.detail.split import split as split_detail
 from graphface.nodes.intrinsic.intensity import intensity
+from graphface.nodes.io.representation import read_representation, write_representation
 from graphface.nodes.render.surroundings import surroundings
 from graphface.nodes.representation.bundle import bundle
 from graphface.nodes.representation.given import given
 from graphface.nodes.sh.render import render as render_light
-from graphface.nodes.types import Camera, Image, Landmarks, Lighting, Mesh, Representation, Segmentation, Surface
+from graphface.nodes.types import Camera, Image, Landmarks, Lighting, Mesh, Segmentation, Surface
 from graphface.values.digest import digest_value
 
 
@@ -55,34 +56,34 @@ def representation(rng):
 class TestRepresentation:
     def test_comes_back_as_it_was(self, representation, tmp_path):
         """Every array, number and word."""
-        Representation.to_file(representation, tmp_path / "a.face")
-        again = Representation.from_file(tmp_path / "a.face")
+        write_representation(representation, tmp_path / "a.face")
+        again = read_representation(tmp_path / "a.face")
         assert digest_value(again) == digest_value(representation)
 
     def test_optional_parts_may_be_absent(self, representation, tmp_path):
         """An additive detail map has neither gain nor pivot."""
         additive = replace(representation, detail=replace(representation.detail, gain=None, pivot=None))
-        Representation.to_file(additive, tmp_path / "a.face")
-        assert Representation.from_file(tmp_path / "a.face").detail.gain is None
+        write_representation(additive, tmp_path / "a.face")
+        assert read_representation(tmp_path / "a.face").detail.gain is None
 
     @pytest.mark.parametrize("keep", [0, 7, 200, -1])
     def test_damaged_files_are_refused(self, representation, tmp_path, keep):
         """A file cut short is an error that names it, not a traceback."""
         path = tmp_path / "a.face"
-        Representation.to_file(representation, path)
+        write_representation(representation, path)
         path.write_bytes(path.read_bytes()[:keep])
         with pytest.raises(UnreadableFile, match=r"a\.face"):
-            Representation.from_file(path)
+            read_representation(path)
 
     def test_other_files_are_refused(self, tmp_path):
         """Nothing there, or safetensors of something else."""
         from safetensors.numpy import save_file
 
         with pytest.raises(UnreadableFile, match="no such file"):
-            Representation.from_file(tmp_path / "none.face")
+            read_representation(tmp_path / "none.face")
         save_file({"a": np.zeros(3)}, tmp_path / "other.face")
         with pytest.raises(UnreadableFile, match="representation"):
-            Representation.from_file(tmp_path / "other.face")
+            read_representation(tmp_path / "other.face")
 
     def test_given_hands_it_on(self, representation):
         """The stand-in for the graph that computes one."""

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from graphface import GraphfaceWarning, UnwritableFile, UsageError
 from graphface.nodes.export.textured import textured
 from graphface.nodes.geometry.morphable import morphable
+from graphface.nodes.io.files import TEXTURED_MESH
 from graphface.nodes.io.mesh import write_mesh
 from graphface.nodes.overlay.checkerboard import checkerboard
 from graphface.nodes.overlay.depth import depth
@@ -23,7 +24,7 @@ from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.surface.visibility import visibility
 from graphface.nodes.texture.project import project
 from graphface.nodes.texture.unwrap import unwrap
-from graphface.nodes.types import Camera, Image, Mesh, TexturedMesh
+from graphface.nodes.types import Camera, Image
 from graphface.nodes.vertex_visibility import facing_camera
 
 SIZE = (300, 400)
@@ -160,8 +161,8 @@ class TestExport:
         trimesh = pytest.importorskip("trimesh")
         photo, mesh, surface = seen()
         texture = unwrap(photo, mesh, surface, size=64)
-        Mesh.to_file(mesh, tmp_path / f"plain{suffix}")
-        TexturedMesh.to_file(textured(mesh, texture), tmp_path / f"colored{suffix}")
+        write_mesh(mesh, tmp_path / f"plain{suffix}")
+        TEXTURED_MESH.write(textured(mesh, texture), tmp_path / f"colored{suffix}")
         for name in ("plain", "colored"):
             back = trimesh.load(tmp_path / f"{name}{suffix}", force="mesh", process=False)
             assert len(back.faces) == len(mesh.triangles)

@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
-
-import numpy as np
 
 NO_FOLLOW = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0)
 
@@ -25,6 +23,8 @@ def read(path: str) -> tuple[Any, int]:
     Raises:
         OSError: as `os.open`; also for a symbolic link or a file in a linked folder.
     """
+    import numpy as np
+
     if os.path.islink(os.path.dirname(path)):
         raise OSError(40, "its folder is a symbolic link")
     descriptor = os.open(path, os.O_RDONLY | NO_FOLLOW)
@@ -46,14 +46,30 @@ def write(path: str, unfinished: str, buffers: Iterable[Any], modified: float) -
     Raises:
         OSError: it cannot be written; then nothing is left of it.
     """
-    descriptor = os.open(unfinished, os.O_WRONLY | os.O_CREAT | os.O_EXCL | NO_FOLLOW, 0o666)
-    try:
+    descriptor = create(unfinished)
+    with replacing(path, unfinished):
         try:
             for buffer in buffers:
                 _write_all(descriptor, memoryview(buffer))
             date(descriptor, modified)
         finally:
             os.close(descriptor)
+
+
+def create(path: str) -> int:
+    """A file that was not there before, open for writing, with the mode that the user's umask asks for.
+
+    Raises:
+        OSError: it cannot be made.
+    """
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | NO_FOLLOW, 0o666)
+
+
+@contextlib.contextmanager
+def replacing(path: str, unfinished: str) -> Iterator[None]:
+    """When the block succeeds, the file `unfinished` takes the place of `path`; otherwise it is deleted."""
+    try:
+        yield
         os.replace(unfinished, path)
     except BaseException:
         delete(unfinished)

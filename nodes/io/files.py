@@ -1,0 +1,163 @@
+"""How the types of `graphface.nodes` are read from files and written to them: the table that `pack` names.
+
+What reads and writes is imported when a file is met. The imports stand in the functions as statements, so that the
+fingerprint of a file input sees the code behind them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from graphface import Files
+
+PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff")
+MESHES = (".obj", ".ply", ".glb", ".gltf")
+
+
+def _read_image(path: Path) -> Any:
+    from graphface.nodes.io.image_read import read_image
+
+    return read_image(path)
+
+
+def _write_image(image: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
+    from graphface.nodes.io.image_write import write_image
+
+    write_image(image, path, text=text)
+
+
+def _text_in_picture(path: Path) -> dict[str, str]:
+    from graphface.nodes.io.image_text import read_text
+
+    return read_text(path)
+
+
+def _read_mask(path: Path) -> Any:
+    from graphface.nodes.color import channel_mean
+    from graphface.nodes.io.image_read import read_image
+
+    return channel_mean(read_image(path).pixels)
+
+
+def _drawn(name: str) -> Callable[..., None]:
+    """A writer of a map as the picture that its type draws."""
+
+    def write(value: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
+        from graphface.nodes import types
+        from graphface.nodes.io.image_write import write_picture
+        from graphface.values.port_types import array_of
+
+        kind = array_of(getattr(types, name))
+        assert kind is not None
+        assert kind.picture is not None
+        write_picture(kind.picture(value), path, text=text)
+
+    return write
+
+
+def _write_texture(texture: Any, path: Path) -> None:
+    _write_image(replace(texture.image, alpha=texture.seen), path)
+
+
+def _read_landmarks(path: Path) -> Any:
+    from graphface.nodes.io.landmarks import read_landmarks
+
+    return read_landmarks(path)
+
+
+def _write_landmarks(landmarks: Any, path: Path) -> None:
+    from graphface.nodes.io.landmarks import write_landmarks
+
+    write_landmarks(landmarks, path)
+
+
+def _write_mesh(mesh: Any, path: Path) -> None:
+    from graphface.nodes.io.mesh import write_mesh
+
+    write_mesh(mesh, path)
+
+
+def _write_textured(textured: Any, path: Path) -> None:
+    from graphface.nodes.io.mesh import write_mesh
+
+    write_mesh(textured.mesh, path, textured.texture)
+
+
+def _read_model(path: Path) -> Any:
+    from graphface.nodes.morphable.storage import load_model
+
+    return load_model(path)
+
+
+def _write_model(model: Any, path: Path) -> None:
+    from graphface.nodes.morphable.storage import save_model
+
+    save_model(model, path)
+
+
+def _read_label_weights(path: Path) -> Any:
+    from graphface.nodes.masks.label_weights import LabelWeights, read_weights
+
+    return LabelWeights(read_weights(path))
+
+
+def _read_environment(path: Path) -> Any:
+    from graphface.nodes.io.panorama import read_panorama
+
+    return read_panorama(path)
+
+
+def _write_environment(environment: Any, path: Path) -> None:
+    from graphface.nodes.io.panorama import write_panorama
+
+    write_panorama(environment, path)
+
+
+def _read_scene(path: Path) -> Any:
+    from graphface.nodes.types import Scene
+
+    return Scene.from_file(path)
+
+
+def _read_pins(path: Path) -> Any:
+    from graphface.nodes.io.pins import read_pins
+
+    return read_pins(path)
+
+
+def _read_judgements(path: Path) -> Any:
+    from graphface.nodes.io.judgements import read_judgements
+
+    return read_judgements(path)
+
+
+def _read_representation(path: Path) -> Any:
+    from graphface.nodes.io.representation import read_representation
+
+    return read_representation(path)
+
+
+def _write_representation(representation: Any, path: Path) -> None:
+    from graphface.nodes.io.representation import write_representation
+
+    write_representation(representation, path)
+
+
+IMAGE = Files(_read_image, _write_image, PICTURES, _text_in_picture)
+MASK = Files(_read_mask, _drawn("Mask"), PICTURES)
+NORMALS, DEPTH, ALBEDO = (Files(write=_drawn(name), suffixes=PICTURES) for name in ("Normals", "Depth", "Albedo"))
+SHADING, DETAIL, GAIN = (Files(write=_drawn(name), suffixes=PICTURES) for name in ("Shading", "Detail", "Gain"))
+TEXTURE = Files(write=_write_texture, suffixes=PICTURES)
+LANDMARKS = Files(_read_landmarks, _write_landmarks, (".pts", ".csv", ".npy"))
+MESH = Files(write=_write_mesh, suffixes=MESHES)
+TEXTURED_MESH = Files(write=_write_textured, suffixes=MESHES)
+MODEL = Files(_read_model, _write_model, (".safetensors",))
+LABEL_WEIGHTS = Files(_read_label_weights)
+ENVIRONMENT = Files(_read_environment, _write_environment, (".exr", ".hdr", ".pic", *PICTURES))
+SCENE = Files(_read_scene)
+PINS = Files(_read_pins)
+JUDGEMENTS = Files(_read_judgements)
+REPRESENTATION = Files(_read_representation, _write_representation)
