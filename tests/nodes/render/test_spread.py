@@ -45,9 +45,7 @@ class TestSpread:
     def test_keeps_the_face(self):
         """Where the mask is 1 the shading is untouched."""
         shading = gradient()
-        np.testing.assert_allclose(
-            spread(shading, MASK, SURFACE, LANDMARKS)[MASK == 1], shading[MASK == 1], atol=1e-6
-        )
+        np.testing.assert_allclose(spread(shading, MASK, SURFACE, LANDMARKS)[MASK == 1], shading[MASK == 1], atol=1e-6)
 
     def test_continues_each_side(self):
         """Left of the face it is as on its left side, right of it as on its right."""
@@ -76,9 +74,7 @@ class TestSpread:
         """Three channels give what each gives alone."""
         colored = np.stack([gradient(), 0.5 * gradient(), 0 * gradient()], axis=2)
         out = spread(colored, MASK, SURFACE, LANDMARKS)
-        np.testing.assert_allclose(
-            out[..., 1], spread(colored[..., 1], MASK, SURFACE, LANDMARKS), atol=1e-6
-        )
+        np.testing.assert_allclose(out[..., 1], spread(colored[..., 1], MASK, SURFACE, LANDMARKS), atol=1e-6)
 
     def test_empty_mask_warns(self):
         """No face: no light changes anything, and it is said."""
@@ -89,9 +85,7 @@ class TestSpread:
         """A face that fills the frame has nothing beyond it."""
         everywhere = Surface(SURFACE.normals, SURFACE.depth, MASK * 0 + 1, SURFACE.triangle, SURFACE.barycentric)
         shading = gradient() + 0.1
-        np.testing.assert_allclose(
-            spread(shading, MASK * 0 + 1, everywhere, LANDMARKS), shading, atol=1e-6
-        )
+        np.testing.assert_allclose(spread(shading, MASK * 0 + 1, everywhere, LANDMARKS), shading, atol=1e-6)
 
     @settings(max_examples=30, deadline=None)
     @given(st.integers(1, 30), st.integers(1, 30), st.floats(0, 1e4), st.floats(1e-6, 1))

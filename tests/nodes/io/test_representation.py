@@ -1,4 +1,4 @@
-"""The representation as one file: written and read without loss, refused where damaged."""
+"""The representation as one file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.io.representation import read_representation, write_representation
 from graphface.nodes.render.surroundings import surroundings
 from graphface.nodes.representation.bundle import bundle
-from graphface.nodes.representation.given import given
 from graphface.nodes.sh.render import render as render_light
 from graphface.nodes.types import Camera, Image, Landmarks, Lighting, Mesh, Segmentation, Surface
 from graphface.values.digest import digest_value
@@ -84,7 +83,3 @@ class TestRepresentation:
         save_file({"a": np.zeros(3)}, tmp_path / "other.face")
         with pytest.raises(UnreadableFile, match="representation"):
             read_representation(tmp_path / "other.face")
-
-    def test_given_hands_it_on(self, representation):
-        """The stand-in for the graph that computes one."""
-        assert given(representation) is representation
