@@ -23,8 +23,8 @@ _LEAST = np.float32(1e-3)
 
 
 _WIDE, _WIDE_WEIGHT = 4.0, 0.02
-"""Width of a second average, relative to the first, and its weight: it decides where the first one contains nothing but
-clipped pixels."""
+"""Width of a second average, relative to the first, and its weight: it decides where the first one has only clipped
+pixels."""
 
 
 @node("image.unclipped")

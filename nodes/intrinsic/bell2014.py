@@ -17,7 +17,7 @@ from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
 THETA_P, THETA_L, THETA_C = 0.1, 0.12, 0.025
 """Standard deviations of the pairwise kernel, named as in the paper: position (share of the diagonal), log intensity
-and chromaticity. Pixels that are near in all three are asked to have the same reflectance."""
+and chromaticity. The pairwise term prefers the same reflectance for pixels that are near in all three."""
 
 
 _PAIRWISE_WEIGHT, _SHADING_WEIGHT, _HUE_WEIGHT = 20.0, 4.0, 30.0
@@ -39,9 +39,9 @@ def bell2014(
     """Every pixel gets one of a few reflectances; the remainder is shading.
 
     Bell, Bala, Snavely, Intrinsic Images in the Wild, SIGGRAPH 2014. Two steps alternate. (1) Labels by mean-field
-    inference in a dense conditional random field: the pairwise term asks for similar reflectances of near and similar
-    pixels (a five-dimensional Gaussian, `Lattice`), the unary terms for a shading near the blurred one of the last
-    round and for the label's hue. (2) Intensities of the reflectances that make shading continuous across the borders
+    inference in a dense conditional random field: the pairwise term prefers similar reflectances of near and similar
+    pixels (a five-dimensional Gaussian, `Lattice`), the unary terms a shading near the blurred one of the last
+    round and a hue near the label's. (2) Intensities of the reflectances that make shading continuous across the borders
     between labels. (The overall scale replaces the paper's constant prior on shading; its final splitting of labels is
     left out.)
 

@@ -1,6 +1,6 @@
 """Images to picture files, with their alpha, color profile and EXIF.
 
-A file is written under another name and renamed when it is complete, so nobody sees half a picture. 16-bit color is
+A file is written under another name and renamed when it is complete, so there is never half a picture. 16-bit color is
 written without Pillow, which has no mode for it: PNG by OpenCV with metadata chunks that are inserted here, TIFF as one
 strip after a directory that Pillow encodes.
 """
@@ -195,7 +195,7 @@ def _blocks(sheet: _Sheet, segments: bool) -> dict[str, Any]:
     xmp = xmp_packet(sheet.text) if sheet.text else None
     exif = sheet.exif
     if segments and xmp is not None and len(xmp) > _MAX_JPEG_SEGMENT:
-        warn("the text is too long for a JPEG and is left out; PNG has room for it")
+        warn("the text is too long for a JPEG and is left out; use .png for it")
         xmp = None
     if segments and exif is not None and len(exif) > _MAX_JPEG_SEGMENT:
         warn("the EXIF is too long for a JPEG and is left out")

@@ -49,7 +49,7 @@ def scene(
     linear = decode_srgb(shading.astype(np.float32)) if reference.encoding == "srgb" else shading
     mean = float(linear.mean())
     if mean < _LEAST_MEAN:
-        warn("light.scene: the reference has hardly any light; took even light instead")
+        warn("light.scene: the reference has hardly any light; even light is used instead")
         return Scene(ambient=1.0, background=background, hair=hair)
     target = np.maximum(np.asarray(linear, np.float64) / mean, darkest)
     design = basis(normals, 2)

@@ -82,8 +82,8 @@ def fit(
     condition = condition_number(gram)
     if condition > ILL_CONDITIONED:
         warn(
-            f"sh.fit: the normals under the mask barely tell directions apart (condition {condition:.3g}); "
-            "the ridge decided"
+            f"sh.fit: the normals under the mask hardly differ (condition {condition:.3g}); "
+            "the ridge decides part of the light"
         )
     light = Lighting(coefficients.astype(np.float32))
     residual = _residual(shading, normals, used, light)

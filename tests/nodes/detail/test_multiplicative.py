@@ -23,7 +23,7 @@ class TestMultiplicative:
         np.testing.assert_allclose(again.pixels, photo.pixels, atol=1 / 255 / 10)
 
     def test_multiplicative_is_the_shading_ratio(self, rng):
-        """Doubling the shading doubles the picture where there is room."""
+        """Doubling the shading doubles the picture where it is far from white."""
         photo = Image(rng.uniform(0.1, 0.2, (6, 5, 3)).astype(np.float32))
         albedo, shading = intensity(photo).albedo, np.full((6, 5), 0.3, np.float32)
         ratio = multiplicative(photo, albedo, shading)

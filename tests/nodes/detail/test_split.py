@@ -48,7 +48,7 @@ class TestSplit:
         np.testing.assert_allclose(*brighter, atol=1e-5)
 
     def test_bound_of_one_is_additive(self, case):
-        """With no room for a gain the method is the paper's."""
+        """With a gain of 1 the method is the paper's."""
         np.testing.assert_allclose(split(*case, bound=1).gain, 1, atol=1e-5)
 
     @settings(max_examples=60, deadline=None)

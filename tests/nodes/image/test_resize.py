@@ -13,7 +13,7 @@ from graphface.nodes.types import Image
 class TestResize:
     @pytest.mark.parametrize(("size", "expected"), [((40, 60), (20, 30)), ((60, 40), (30, 20)), ((1, 600), (1, 30))])
     def test_long_side(self, size, expected):
-        """The longer side gets the length asked for, the other follows and is at least one pixel."""
+        """The longer side has `long_side` pixels, the other follows and has at least one."""
         assert resize(Image(smooth(*size)), long_side=30).pixels.shape[:2] == expected
 
     def test_small_pictures_are_left(self):
@@ -22,7 +22,7 @@ class TestResize:
         assert resize(image, long_side=100) is image
 
     def test_enlarge(self):
-        """Enlarging happens when asked for, and keeps the alpha in 0..1."""
+        """A smaller picture is enlarged with `enlarge`; alpha stays in 0..1."""
         image = Image(smooth(), (smooth(channels=1)[..., 0] > 0.5).astype(np.float32))
         large = resize(image, long_side=120, enlarge=True)
         assert large.pixels.shape == (80, 120, 3)

@@ -31,7 +31,7 @@ def clipped(pixels):
 
 class TestUnclipped:
     def test_a_lost_channel_comes_back(self):
-        """Where red is clipped and green and blue are not, their ratios to the skin around tell it."""
+        """Red that is clipped follows from green and blue and the color of the skin around."""
         true = shiny()
         found = unclipped(clipped(true), eyes_apart(INTEROCULAR)).pixels
         lost = true[..., 0] > 1.02
@@ -44,7 +44,7 @@ class TestUnclipped:
         np.testing.assert_array_equal(unclipped(photo, eyes_apart(INTEROCULAR)).pixels, photo.pixels)
 
     def test_full_white_stays(self):
-        """No channel tells anything."""
+        """Without an unclipped channel there is nothing to reconstruct from."""
         photo = Image(np.ones((20, 20, 3), np.float32))
         np.testing.assert_array_equal(unclipped(photo, eyes_apart(INTEROCULAR)).pixels, photo.pixels)
 

@@ -12,7 +12,7 @@ from graphface.nodes.intrinsic.guided_upsampling import reduced, upsampled
 class TestReduced:
     @given(st.integers(1, 60), st.integers(1, 60), st.integers(1, 80))
     def test_size(self, height, width, longest):
-        """The longer side is at most as long as asked for; what is small enough is the same object."""
+        """The longer side is at most `longest`; what is small enough is the same object."""
         values = np.ones((height, width), np.float32)
         small = reduced(values, longest)
         assert max(small.shape) <= max(longest, 1)

@@ -34,7 +34,7 @@ def shading_error(made, truth):
 @pytest.mark.parametrize("method", QUALITY, ids=lambda m: m.__name__)
 class TestOnAPatchwork:
     def test_shading_error(self, method, patchwork):
-        """No worse than the table says."""
+        """No worse than in the table."""
         case = patchwork()
         assert shading_error(method(case.photo).shading, case.shading) < QUALITY[method]
 
@@ -45,7 +45,7 @@ class TestOnAPatchwork:
         np.testing.assert_allclose(parts.albedo * parts.shading[..., None], photo.pixels, atol=1e-5)
 
     def test_shading_has_the_mean_of_the_intensity_over_the_mask(self, method, patchwork):
-        """The free scale is settled the same way by every method, so that swapping one keeps the unit of light."""
+        """Every method chooses the free scale alike, so that a swap keeps the unit of light."""
         case = patchwork()
         mask = np.zeros(case.shading.shape, np.float32)
         mask[20:90, 30:100] = 1

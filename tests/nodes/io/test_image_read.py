@@ -117,7 +117,7 @@ class TestKinds:
 
     @pytest.mark.parametrize("suffix", [".png", ".webp"])
     def test_first_frame_of_an_animation(self, tmp_path, suffix):
-        """Of an animation the first frame is read, and said."""
+        """Of an animation the first frame is read, with a warning."""
         frames = [Pillow.new("RGB", (8, 8), color) for color in ("red", "blue")]
         frames[0].save(tmp_path / f"a{suffix}", save_all=True, append_images=frames[1:], lossless=True)
         with pytest.warns(GraphfaceWarning, match="2 pictures"):
@@ -125,7 +125,7 @@ class TestKinds:
         np.testing.assert_allclose(pixels[0, 0], [1, 0, 0], atol=0.02)
 
     def test_suffix_does_not_matter(self, tmp_path):
-        """The content says what a file is, not its name."""
+        """The format is that of the content, not of the name."""
         Pillow.new("RGB", (8, 8)).save(tmp_path / "a.jpg", "PNG")
         assert read_image(tmp_path / "a.jpg").file.name == "PNG"
 

@@ -51,7 +51,7 @@ class TestRoundTrip:
         if suffix in LOSSLESS:
             assert np.abs(back.pixels - smooth()).max() <= 0.51 / 255
 
-    def test_alpha_lost_to_jpeg_is_said(self, tmp_path):
+    def test_alpha_lost_to_jpeg_warns(self, tmp_path):
         """JPEG has no transparency: written without, and warned about."""
         with pytest.warns(GraphfaceWarning, match="no transparency"):
             write_image(Image(smooth(), np.ones((40, 60), np.float32)), tmp_path / "a.jpg")
@@ -95,7 +95,7 @@ class TestRoundTrip:
         assert not read_image(tmp_path / "a.png").file.grey
 
     def test_grey_profile_is_not_put_on_color(self, tmp_path):
-        """A profile for grey does not fit RGB samples: left out, and said."""
+        """A profile for grey does not fit RGB samples: it is left out, with a warning."""
         icc = ICC[:16] + b"GRAY" + ICC[20:]
         with pytest.warns(GraphfaceWarning, match="profile"):
             write_image(Image(smooth(), file=FileFormat(grey=True, icc=icc)), tmp_path / "a.png")

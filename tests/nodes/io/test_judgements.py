@@ -30,12 +30,12 @@ class TestJudgements:
         graph = graphface.load(
             {
                 "graphface": 1,
-                "inputs": {"albedo": "Albedo", "said": "Judgements"},
-                "nodes": {"rate": {"use": "metrics.whdr", "in": {"albedo": "albedo", "judgements": "said"}}},
+                "inputs": {"albedo": "Albedo", "judged": "Judgements"},
+                "nodes": {"rate": {"use": "metrics.whdr", "in": {"albedo": "albedo", "judgements": "judged"}}},
                 "outputs": {"rate": "rate"},
             }
         )
-        assert graph.run(albedo=albedo, said=tmp_path / "judged.json")["rate"] == pytest.approx(0.25)
+        assert graph.run(albedo=albedo, judged=tmp_path / "judged.json")["rate"] == pytest.approx(0.25)
 
     @pytest.mark.parametrize("text", ["", "[]", "{}", '{"intrinsic_points": 3, "intrinsic_comparisons": []}'])
     def test_another_file(self, tmp_path, text):

@@ -30,7 +30,7 @@ class TestEnvironmentFiles:
         np.testing.assert_allclose(again, panorama.radiance, atol=0.01 * panorama.radiance.max())
 
     def test_holes_and_negatives_become_dark(self, tmp_path):
-        """Radiance is finite and not negative, whatever the file says."""
+        """Radiance is finite and not negative, whatever the file contains."""
         write_exr(np.full((2, 4, 3), -1, np.float32) * np.float32([1, np.nan, -2]), tmp_path / "sky.exr")
         np.testing.assert_array_equal(read_panorama(tmp_path / "sky.exr").radiance[0, 0], [0, 0, 2])
 

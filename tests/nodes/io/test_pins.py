@@ -17,7 +17,7 @@ class TestReadPins:
 
     @pytest.mark.parametrize("line", ["1 2 3", "1 2 3 x", "1 2 3 nan", "1 2 3 4 5"])
     def test_a_wrong_line_is_named(self, tmp_path, line):
-        """The error says which line is wrong."""
+        """The error has the number of the line."""
         (tmp_path / "p.txt").write_text(f"1 2 3 4\n{line}\n")
         with pytest.raises(UnreadableFile, match="line 2"):
             read_pins(tmp_path / "p.txt")

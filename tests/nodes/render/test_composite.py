@@ -38,7 +38,7 @@ def striped():
 
 class TestComposite:
     def test_each_label_takes_its_share(self):
-        """Face all of the new light, background its mixture, dull hair all, shiny hair what the scene says."""
+        """The face and dull hair get the new light, the background its mixture, shiny hair the scene's share."""
         scene = Scene(background=0.25, hair=0.5)
         shine = hair_shine(striped(), thirds(), NOWHERE, bright=99)
         mixed = composite(OLD, NEW, scene, thirds(), shine)
@@ -58,7 +58,7 @@ class TestComposite:
         assert composite(OLD, new, Scene(background=0.5), thirds()).shape == (*SHAPE, 3)
 
     def test_dark_hair_does_not_glow(self):
-        """Light added to hair half as bright as the light says is half as much (the ratio); on skin it is all there."""
+        """Hair half as bright as the estimated light reflects half of added light (the ratio); skin reflects all."""
         held = response(OLD / 2, OLD, thirds())
         mixed = composite(OLD, NEW, Scene(background=1, hair=0), thirds(), None, held)
         np.testing.assert_allclose(mixed[:, :3], 0.8)

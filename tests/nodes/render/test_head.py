@@ -92,20 +92,20 @@ class TestHead:
         assert np.abs(apart).max() < 0.1 * mesh.interocular
 
     def test_unknown_points(self):
-        """A mesh that does not tell its points comes back, with a warning."""
+        """A mesh without known points is returned as it is, with a warning."""
         mesh = replace(face_mesh(), facemesh=None)
-        with pytest.warns(match="no pose"):
+        with pytest.warns(match="cannot be estimated"):
             assert head(mesh) is mesh
 
     def test_points_of_another_kind(self):
-        """A mesh whose first points are not FaceMesh's tells no pose: it comes back, with a warning."""
+        """A mesh whose first points are not FaceMesh's has no pose: it is returned as it is, with a warning."""
         mesh = face_mesh()
         strange = replace(mesh, vertices=np.roll(mesh.vertices, 100, axis=0))
-        with pytest.warns(match="no pose"):
+        with pytest.warns(match="cannot be estimated"):
             assert head(strange) is strange
 
     def test_a_face_of_one_point(self):
-        """No pose to be had: the mesh comes back, with a warning."""
+        """There is no pose: the mesh is returned as it is, with a warning."""
         flat = replace(face_mesh(), vertices=np.zeros((468, 3), np.float32))
-        with pytest.warns(match="no pose"):
+        with pytest.warns(match="cannot be estimated"):
             assert head(flat) is flat

@@ -28,7 +28,7 @@ class TestResponse:
         assert (response(OLD / 2, OLD, thirds())[:, :3] == 1).all()
 
     def test_never_more_than_in_full(self):
-        """A pixel brighter than the light says, or without light, is not lit more than skin, nor less than nothing."""
+        """A pixel brighter than the estimated light, or without light, stays in 0..1."""
         for own, estimated in ((NEW, OLD), (NEW, 0 * OLD), (0 * OLD, 0 * OLD)):
             held = response(own, estimated, thirds())
             assert held.min() >= 0

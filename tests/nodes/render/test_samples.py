@@ -56,14 +56,14 @@ class TestSamples:
         assert len(taken(surface, resolution=4096).cells) == surface.coverage.sum()
 
     def test_points_are_where_the_camera_sees_them(self):
-        """In inter-ocular distances, y upwards, z as the surface says."""
+        """In inter-ocular distances, y upwards, z from the surface."""
         points = taken(disc(), resolution=UNIT).points
         np.testing.assert_allclose(points[:, :2].mean(axis=0), 0, atol=1e-5)
         np.testing.assert_allclose(points[:, 2], 2 / UNIT)
         assert points[0, 1] == pytest.approx(29.5 / UNIT)  # the first row is the topmost
 
     def test_without_a_mesh_every_pixel_is_one_and_lies_in_the_middle(self):
-        """Nothing says how large the face is, or where."""
+        """The size and the place of the face are not known."""
         found = taken(disc(), mesh=None)
         assert found.grid == found.picture
         assert not found.points.any()

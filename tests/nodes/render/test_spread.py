@@ -77,7 +77,7 @@ class TestSpread:
         np.testing.assert_allclose(out[..., 1], spread(colored[..., 1], MASK, SURFACE, LANDMARKS), atol=1e-6)
 
     def test_empty_mask_warns(self):
-        """No face: no light changes anything, and it is said."""
+        """Without a face no light changes anything, with a warning."""
         with pytest.warns(GraphfaceWarning, match="mask is empty"):
             assert not spread(gradient(), MASK * 0, SURFACE, LANDMARKS).any()
 

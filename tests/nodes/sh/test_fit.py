@@ -53,10 +53,10 @@ class TestFit:
         np.testing.assert_allclose(render(found.light, NORMALS)[16, 16], 0.4, rtol=1e-5)
 
     def test_constant_normals_give_ambient_light_and_warn(self):
-        """A flat wall says nothing about direction: the constant term takes all."""
+        """A flat wall determines no direction: the constant term takes all."""
         wall = np.zeros_like(NORMALS)
         wall[..., 2] = 1
-        with pytest.warns(GraphfaceWarning, match="barely tell"):
+        with pytest.warns(GraphfaceWarning, match="hardly differ"):
             found = fit(EVERYWHERE * 0.6, wall, EVERYWHERE)
         np.testing.assert_allclose(render(found.light, NORMALS)[NORMALS.any(axis=2)], 0.6, atol=0.01)
 
@@ -154,7 +154,7 @@ class TestNonnegativeFit:
 
 class TestChannels:
     def test_grey_makes_one_light_of_three(self):
-        """A colored shading gives (n, 3) coefficients, or (n,) where grey is asked for."""
+        """A colored shading gives (n, 3) coefficients, or (n,) with `grey`."""
         colored = render(ambient(np.float32([0.2, 0.4, 0.9])), NORMALS)
         assert fit(colored, NORMALS, EVERYWHERE).light.coefficients.shape == (4, 3)
         grey = fit(colored, NORMALS, EVERYWHERE, grey=True).light.coefficients

@@ -27,7 +27,7 @@ class TestToEnvironment:
         assert radiance.max() > 0
 
     def test_order_three_has_no_radiance(self):
-        """A warning says that it is left out."""
+        """It is left out, with a warning."""
         light = Lighting(np.ones(16, np.float32))
         with pytest.warns(GraphfaceWarning, match="order 3"):
             found = to_environment(light, quantity="radiance")

@@ -1,4 +1,4 @@
-"""What an array's type says of it."""
+"""Types of arrays: name, description, picture."""
 
 from __future__ import annotations
 
