@@ -13,7 +13,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from graphface import node
+from graphface import Formerly, node
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.face_scale import face_scale
@@ -30,8 +30,8 @@ def shadow_color(
     mask: Mask,
     landmarks: Landmarks,
     *,
-    dark: Annotated[float, Field(gt=0, le=1)] = 0.8,
-    reach: Annotated[float, Field(gt=0, le=5)] = 0.3,
+    threshold: Annotated[float, Field(gt=0, le=1), Formerly("dark")] = 0.8,
+    sigma: Annotated[float, Field(gt=0, le=5), Formerly("reach")] = 0.3,
     resolution: Annotated[int, Field(ge=8, le=256)] = 24,
 ) -> Albedo:
     """Limit the saturation of an albedo at dark pixels to that of the lit skin around; brightness and hue stay.
@@ -40,17 +40,17 @@ def shadow_color(
         albedo: of an intrinsic method, H x W x 3.
         photo: the picture that it was computed from.
         mask: the face, H x W; the averages are taken over it.
-        dark: the limit begins to apply below this share of the mean brightness around, and applies in full at half of
-            it.
-        reach: standard deviation of the averages, in inter-ocular distances.
+        threshold: share of the mean brightness around below which the limit begins to apply; at half of it, it applies
+            in full.
+        sigma: standard deviation of the averages, in inter-ocular distances.
         resolution: pixels per inter-ocular distance of the copy on which averages are taken.
     """
     copy = face_scale(landmarks, albedo.shape, resolution)
-    sigma = max(reach * copy.interocular, 0.5)
+    width = max(sigma * copy.interocular, 0.5)
     in_face = copy.down(mask) + _LEAST
     brightness, saturation = _mean_and_saturation(copy.down(photo.pixels))
     weight = in_face * np.square(brightness) + np.float32(1e-9)
-    sums = blurred(np.dstack([weight, weight * brightness, weight * saturation]), sigma)
+    sums = blurred(np.dstack([weight, weight * brightness, weight * saturation]), width)
     mean_around, limit = (copy.up(sums[..., n] / sums[..., 0]) for n in (1, 2))
     result = np.empty_like(albedo)
 
@@ -58,7 +58,7 @@ def shadow_color(
         grey, own = _mean_and_saturation(albedo[rows])
         share = _mean_and_saturation(photo.pixels[rows])[0]
         share /= np.maximum(mean_around[rows], _LEAST)
-        share *= np.float32(-2 / dark)
+        share *= np.float32(-2 / threshold)
         share += 2
         np.clip(share, 0, 1, out=share)
         # own - share * max(own - limit, 0), as a factor of own

@@ -12,7 +12,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from graphface import node
+from graphface import Formerly, node
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean
 from graphface.nodes.face_scale import face_scale
@@ -34,8 +34,8 @@ def unclipped(
     *,
     begin: Annotated[float, Field(ge=0, le=1)] = 0.94,
     end: Annotated[float, Field(ge=0, le=1)] = 0.99,
-    reach: Annotated[float, Field(gt=0, le=2)] = 0.1,
-    most: Annotated[float, Field(ge=1, le=4)] = 1.5,
+    sigma: Annotated[float, Field(gt=0, le=2), Formerly("reach")] = 0.1,
+    largest_gain: Annotated[float, Field(ge=1, le=4), Formerly("most")] = 1.5,
     resolution: Annotated[int, Field(ge=8, le=256)] = 32,
 ) -> Image:
     """The photo with clipped channels raised beyond 1, to the color around them at the pixel's own brightness.
@@ -43,8 +43,8 @@ def unclipped(
     Args:
         begin, end: values between which the confidence in a channel falls from 1 to 0. JPEG leaves clipped pixels some
             steps below 1.
-        reach: standard deviation of the average color around, in inter-ocular distances.
-        most: largest factor by which a channel is raised.
+        sigma: standard deviation of the average color around, in inter-ocular distances.
+        largest_gain: largest factor by which a channel is raised.
         resolution: pixels per inter-ocular distance of the copy on which colors are averaged.
 
     Returns:
@@ -65,8 +65,8 @@ def unclipped(
     # Pixels nearly as bright as the highlight are likely to be of its material. A clipped pixel has no color to give.
     weight = (confidence(small).min(axis=2) * np.square(channel_mean(small)) + np.float32(1e-6))[..., None]
     sums = np.concatenate([small * weight, weight], axis=2)
-    sigma = max(reach * copy.interocular, 0.5)
-    sums = blurred(sums, sigma) + np.float32(_WIDE_WEIGHT) * blurred(sums, _WIDE * sigma)
+    width = max(sigma * copy.interocular, 0.5)
+    sums = blurred(sums, width) + np.float32(_WIDE_WEIGHT) * blurred(sums, _WIDE * width)
     color_around = copy.up(sums[..., :3] / sums[..., 3:])
     raised = pixels.copy()
 
@@ -77,7 +77,7 @@ def unclipped(
         color = np.maximum(color_around[rows].reshape(-1, 3).take(places, axis=0), _LEAST)
         known = confidence(part)
         brightness = (known * part).sum(axis=1) / np.maximum((known * color).sum(axis=1), _LEAST)
-        wanted = np.clip(color * brightness[:, None], part, part * np.float32(most))
+        wanted = np.clip(color * brightness[:, None], part, part * np.float32(largest_gain))
         certainty = np.minimum(known.sum(axis=1), 1)[:, None]
         raised[rows].reshape(-1, 3)[places] = part + (1 - known) * certainty * (wanted - part)
 

@@ -40,8 +40,8 @@ def bell2014(
 
     Bell, Bala, Snavely, Intrinsic Images in the Wild, SIGGRAPH 2014. Two steps alternate. (1) Labels by mean-field
     inference in a dense conditional random field: the pairwise term prefers similar reflectances of near and similar
-    pixels (a five-dimensional Gaussian, `Lattice`), the unary terms a shading near the blurred one of the last
-    round and a hue near the label's. (2) Intensities of the reflectances that make shading continuous across the borders
+    pixels (a five-dimensional Gaussian, `Lattice`), the unary terms a shading near the blurred one of the last round
+    and a hue near the label's. (2) Intensities of the reflectances that make shading continuous across the borders
     between labels. (The overall scale replaces the paper's constant prior on shading; its final splitting of labels is
     left out.)
 

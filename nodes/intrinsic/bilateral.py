@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from graphface import node
+from graphface import Formerly, node
 from graphface.nodes.intrinsic.log_domain import finite_pixels, intrinsic_images, log_intensity
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
@@ -20,20 +20,20 @@ def bilateral(
     photo: Image,
     mask: Mask | None = None,
     *,
-    reach: Annotated[float, Field(gt=0, le=1)] = 0.04,
-    contrast: Annotated[float, Field(gt=0, le=10)] = 0.4,
+    spatial_sigma: Annotated[float, Field(gt=0, le=1), Formerly("reach")] = 0.04,
+    range_sigma: Annotated[float, Field(gt=0, le=10), Formerly("contrast")] = 0.4,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Intrinsic:
     """log s is the bilateral filter of the log intensity; the texture that it removes is albedo.
 
     Oh, Chen, Dorsey, Durand, Image-Based Modeling and Photo Editing, SIGGRAPH 2001. The filter is a blur in the
     bilateral grid of position and intensity (Chen, Paris, Durand, Real-Time Edge-Aware Image Processing with the
-    Bilateral Grid, SIGGRAPH 2007), whose cost falls with `reach`.
+    Bilateral Grid, SIGGRAPH 2007), whose cost falls with `spatial_sigma`.
 
     Args:
         mask: H x W; over it shading gets the mean of the intensity.
-        reach: standard deviation in space, as a share of the longer side.
-        contrast: standard deviation in log intensity; larger steps stay in the shading.
+        spatial_sigma: standard deviation in the picture, as a share of the longer side.
+        range_sigma: standard deviation in log intensity; larger steps stay in the shading.
         floor: least shading.
 
     Returns:
@@ -41,22 +41,22 @@ def bilateral(
     """
     pixels = finite_pixels(photo, "intrinsic.bilateral")
     intensity = log_intensity(pixels)
-    smooth = _grid_filtered(intensity, max(reach * max(intensity.shape), 1.0), contrast)
+    smooth = _grid_filtered(intensity, max(spatial_sigma * max(intensity.shape), 1.0), range_sigma)
     return intrinsic_images(pixels, smooth, mask, floor)
 
 
-def _grid_filtered(values: FloatArray, reach: float, contrast: float) -> FloatArray:
+def _grid_filtered(values: FloatArray, spatial_sigma: float, range_sigma: float) -> FloatArray:
     """Splat into a grid with one cell per standard deviation, blur by one cell, read back trilinearly.
 
     Args:
-        values: H x W. reach: in pixels. contrast: in the unit of `values`.
+        values: H x W. spatial_sigma: in pixels. range_sigma: in the unit of `values`.
     """
     from scipy.ndimage import gaussian_filter, map_coordinates
 
     height, width = values.shape
-    rows = np.arange(height, dtype=np.float32)[:, None] / np.float32(reach) + _MARGIN
-    columns = np.arange(width, dtype=np.float32)[None, :] / np.float32(reach) + _MARGIN
-    levels = (values - values.min()) / np.float32(contrast) + _MARGIN
+    rows = np.arange(height, dtype=np.float32)[:, None] / np.float32(spatial_sigma) + _MARGIN
+    columns = np.arange(width, dtype=np.float32)[None, :] / np.float32(spatial_sigma) + _MARGIN
+    levels = (values - values.min()) / np.float32(range_sigma) + _MARGIN
     shape = tuple(int(last) + 2 * _MARGIN for last in (rows[-1, 0], columns[0, -1], levels.max()))
     cells = [np.broadcast_to(np.rint(c).astype(np.intp), values.shape).ravel() for c in (rows, columns, levels)]
     index = np.ravel_multi_index((cells[0], cells[1], cells[2]), shape)

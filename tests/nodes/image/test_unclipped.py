@@ -56,9 +56,9 @@ class TestUnclipped:
 
     @given(st.integers(1, 24), st.integers(1, 24), st.floats(0, 1e4), st.integers(0, 2**32 - 1))
     def test_any_picture(self, height, width, interocular, seed):
-        """Never darker, never more than `most` times as bright, whatever the size."""
+        """Never darker, never more than `largest_gain` times as bright, whatever the size."""
         pixels = np.random.default_rng(seed).choice(np.float32([0, 0.5, 0.95, 1]), (height, width, 3))
-        found = unclipped(Image(pixels), eyes_apart(interocular), most=1.5).pixels
+        found = unclipped(Image(pixels), eyes_apart(interocular), largest_gain=1.5).pixels
         assert np.isfinite(found).all()
         assert (found >= pixels).all()
         assert (found <= 1.5 * pixels + 1e-6).all()
