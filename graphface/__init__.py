@@ -19,6 +19,7 @@ from graphface.node import Cosmetic, Formerly, Needs, node
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
+    from graphface.document.typed_yaml import read_yaml, validated
     from graphface.errors import (
         DeclarationError,
         DocumentError,
@@ -73,7 +74,9 @@ _HOMES = {
     "UnwritableFile": "errors",
     "UsageError": "errors",
     "load": "facade",
+    "read_yaml": "document.typed_yaml",
     "register_parts": "values.parts",
+    "validated": "document.typed_yaml",
     "warn": "fallback",
 }
 
@@ -105,7 +108,9 @@ __all__ = [
     "UsageError",
     "load",
     "node",
+    "read_yaml",
     "register_parts",
+    "validated",
     "warn",
 ]
 

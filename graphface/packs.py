@@ -48,6 +48,8 @@ class Pack:
             spaces.
         formerly: old operator name to the present one, where the operator has moved to another family; within a family
             `formerly` of `@node` is enough.
+        schemas: kind of file ("scene") to "module:attribute" of a pydantic model, or of a function that returns a JSON
+            Schema, for `graphface schema --kind`.
     """
 
     name: str
@@ -57,6 +59,7 @@ class Pack:
     graphs: str = ""
     assets: str = ""
     formerly: Mapping[str, str] = field(default_factory=dict)
+    schemas: Mapping[str, str] = field(default_factory=dict)
 
 
 def installed_packs() -> list[Pack]:

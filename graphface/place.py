@@ -9,9 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-
-COLUMN_BITS = 20
-"""A position as one number: the line, then this many bits of column."""
+from typing import NamedTuple
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,12 +24,12 @@ class Source:
     def lines(self) -> list[str]:
         return self.text.splitlines()
 
-    def place(self, at: int) -> Place:
-        return Place(self, at >> COLUMN_BITS, at & ((1 << COLUMN_BITS) - 1))
+    @property
+    def start(self) -> Place:
+        return Place(self, 1, 1)
 
 
-@dataclass(frozen=True)
-class Place:
+class Place(NamedTuple):
     """A position in a source; line and column count from 1."""
 
     source: Source

@@ -191,6 +191,11 @@ class Registry:
         found = self._attribute(pack.files[name])
         return found.get(self._attribute(pack.types[name])) if isinstance(found, Mapping) else found
 
+    def schemas(self) -> dict[str, Any]:
+        """Kinds of files to what describes them: pydantic models, and functions that return a JSON Schema."""
+        named = {kind: self._attribute(where) for pack in self._packs for kind, where in pack.schemas.items()}
+        return {kind: found for kind, found in named.items() if found is not None}
+
     def _named_type(self, name: str) -> PortType:
         if name == "Any":
             return ANY

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.types import Correspondence, FloatArray
 
 _LARGEST_STEP = 1.5
@@ -32,12 +32,12 @@ def resampled(values: FloatArray, correspondence: Correspondence) -> FloatArray:
     """
     import cv2
 
-    rows, columns = _bounding_box(correspondence.inside > 0)
-    places = correspondence.places[rows, columns]
     out = np.zeros((*correspondence.inside.shape, *values.shape[2:]), np.float32)
-    if places.size == 0:
+    box = bounding_box(correspondence.inside > 0)
+    if box is None:
         return out
-    step = _median_step(places, correspondence.inside[rows, columns])
+    places = correspondence.places[box]
+    step = _median_step(places, correspondence.inside[box])
     factor = None
     if step > _LARGEST_STEP:
         height, width = (max(1, round(n / step)) for n in values.shape[:2])
@@ -55,24 +55,16 @@ def resampled(values: FloatArray, correspondence: Correspondence) -> FloatArray:
 
     window = at(places)
     if correspondence.mirrored is not None and correspondence.mirrored_valid is not None:
-        mirrored_valid = correspondence.mirrored_valid[rows, columns]
-        if mirrored_valid.any():
-            part = _bounding_box(mirrored_valid > 0)
+        mirrored_valid = correspondence.mirrored_valid[box]
+        part = bounding_box(mirrored_valid > 0)
+        if part is not None:
             # The mirror image has its validity as weight, the point itself the rest of its own.
-            direct = correspondence.valid[rows, columns][part] * (1 - mirrored_valid[part])
+            direct = correspondence.valid[box][part] * (1 - mirrored_valid[part])
             weight = mirrored_valid[part] / np.maximum(mirrored_valid[part] + direct, 1e-6)
             weight = weight.reshape(*weight.shape, *[1] * (values.ndim - 2))
-            window[part] += weight * (at(correspondence.mirrored[rows, columns][part]) - window[part])
-    out[rows, columns] = window
+            window[part] += weight * (at(correspondence.mirrored[box][part]) - window[part])
+    out[box] = window
     return out
-
-
-def _bounding_box(covered: NDArray[np.bool_]) -> tuple[slice, slice]:
-    """Rows and columns of the smallest box that holds every True; empty where there is none."""
-    rows, columns = np.flatnonzero(covered.any(axis=1)), np.flatnonzero(covered.any(axis=0))
-    if rows.size == 0:
-        return slice(0, 0), slice(0, 0)
-    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
 def _median_step(places: FloatArray, inside: FloatArray) -> float:

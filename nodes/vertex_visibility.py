@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphface.nodes.types import FloatArray, Mesh, Surface, Visibility
 
@@ -11,16 +12,33 @@ def vertex_visibility(
     surface: Surface, mesh: Mesh, *, facing: float = 0.2, depth_tolerance: float = 0.05
 ) -> Visibility:
     """How far the camera sees each vertex, float32 (V,), 0 to 1; see `surface.visibility`."""
-    height, width = surface.coverage.shape
+    turned = np.clip(facing_camera(mesh) / facing, 0, 1)
+    return np.asarray(unoccluded(surface, mesh, depth_tolerance) * turned, np.float32)
+
+
+def unoccluded(surface: Surface, mesh: Mesh, depth_tolerance: float) -> FloatArray:
+    """1 for the vertices inside of the frame with no other surface before them: float32 (V,).
+
+    Args:
+        surface: the mesh drawn into the picture. depth_tolerance: depth, in inter-ocular distances, behind the surface
+            that was drawn up to which a vertex is part of it; at twice that the value is 0.
+    """
+    row, column, inside = vertex_pixels(mesh, surface.coverage.shape)
+    drawn = surface.coverage[row, column] > 0
+    behind = np.where(drawn, surface.depth[row, column] - mesh.vertices[:, 2], 0)
+    return np.asarray(inside * np.clip(2 - behind / max(depth_tolerance * mesh.interocular, 1e-6), 0, 1), np.float32)
+
+
+def vertex_pixels(mesh: Mesh, shape: tuple[int, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
+    """Row and column of the picture's pixel nearest to each vertex, and whether the vertex lies inside of the frame.
+
+    Three arrays (V,); `shape` is the picture's (height, width).
+    """
+    height, width = shape
     pixels = mesh.camera.project(mesh.vertices.astype(np.float64))
     inside = ((pixels >= -0.5) & (pixels <= np.array([width, height]) - 0.5)).all(axis=1)
-    x, y = (np.clip(np.rint(pixels[:, k]), 0, n - 1).astype(int) for k, n in ((0, width), (1, height)))
-    drawn = surface.coverage[y, x] > 0
-    behind = np.where(drawn, surface.depth[y, x] - mesh.vertices[:, 2], 0)
-    unhidden = np.clip(2 - behind / max(depth_tolerance * mesh.interocular, 1e-6), 0, 1)
-    turned = np.clip(facing_camera(mesh) / facing, 0, 1)
-    shown: FloatArray = (inside * unhidden * turned).astype(np.float32)
-    return shown
+    column, row = (np.clip(np.rint(pixels[:, k]), 0, n - 1).astype(np.intp) for k, n in ((0, width), (1, height)))
+    return row, column, inside
 
 
 def facing_camera(mesh: Mesh) -> FloatArray:

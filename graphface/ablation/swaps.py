@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from graphface.document.located import scalar
+from graphface.document.scalars import scalar
 from graphface.errors import UsageError, did_you_mean, nearest_names
 
 if TYPE_CHECKING:

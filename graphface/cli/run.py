@@ -169,6 +169,7 @@ def run_map(
 
     over = read_maps(maps)
     _check_distinct(graph, output, given, over)
+    graph.bind(given)  # what all combinations share is refused once, before any runs
     first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
     targets = graph.targets(first)
     for name, path in first.items():

@@ -1,4 +1,4 @@
-"""`graphface schema`: a JSON Schema of graph files for editors."""
+"""`graphface schema`: JSON Schemas for editors, of graph files and of other files that packs describe."""
 
 from __future__ import annotations
 
@@ -15,17 +15,20 @@ def schema(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="File to write; standard output by default.")
     ] = None,
+    kind: Annotated[
+        str, typer.Option(metavar="KIND", help="Of which files: graph, or a kind that a pack describes (scene).")
+    ] = "graph",
     plugins: Plugins = [],  # noqa: B006
 ) -> None:
-    """Write a JSON Schema of graph files: operators, ports, parameters, ranges and documentation."""
-    from graphface.document.schema import graph_schema
+    """Write a JSON Schema of graph files (operators, ports, parameters, ranges, documentation) or of another kind."""
+    from graphface.document.schema import schema_of
     from graphface.registry import default_registry
     from graphface.values.writing import beside, check_folder
 
     registry = default_registry().extended()
     for plugin in plugins:
         registry.add_file(plugin)
-    text = json.dumps(graph_schema(registry), indent=1)
+    text = json.dumps(schema_of(kind, registry), indent=1)
     if output is None:
         print(text)
         return

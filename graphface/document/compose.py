@@ -34,6 +34,7 @@ from graphface.errors import DocumentError, Problem, nearest_names
 from graphface.place import Place
 
 MAX_NODES = 2_000_000
+"""Graphs in graphs multiply what their files say."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,6 @@ class _Composer:
         scope = self._expand(document, "", None, {}, flags, ())
         self._check_choices()
         return Composition(
-            source=document.source,
             path=document.path,
             name=document.name or (document.path.stem if document.path else "graph"),
             doc=document.doc,
@@ -87,7 +87,6 @@ class _Composer:
             variants=sorted(self._declared["variant"]),
             profiles=sorted(self._declared["profile"]),
             scope=scope,
-            files=self._files.paths,
             problems=self._problems,
         )
 
@@ -177,7 +176,8 @@ class _Composer:
         inner = with_bases(inner, self._files, self._problems, (inner.path,))
         self._count += 1
         constants = own_part(node).settings
-        self._check_input_names(scope, node, inner, constants)
+        self._check_input_names(node, inner, constants)
+        self._check_connections(scope, node, inner, constants)
         if constants:
             inner = copy.copy(inner)
             inner.inputs = _with_defaults(inner.inputs, constants)
@@ -185,20 +185,21 @@ class _Composer:
         prefix = f"{scope.prefix}{node.name}/"
         scope.graphs[node.name] = self._expand(inner, prefix, scope, node.wires, pending, chain)
 
-    def _check_input_names(
-        self, scope: Scope, node: NodeEntry, inner: Document, constants: Mapping[str, Setting]
-    ) -> None:
-        for port, place in [
-            *((p, w.place) for p, w in node.wires.items()),
-            *((k, s.place) for k, s in constants.items()),
-        ]:
+    def _check_input_names(self, node: NodeEntry, inner: Document, constants: Mapping[str, Setting]) -> None:
+        entries: list[tuple[str, Wire | Setting]] = [*node.wires.items(), *constants.items()]
+        for port, entry in entries:
             if port not in inner.inputs and port not in node.carried:
                 self._problem(
                     f"graph {node.name!r} ({inner.path and inner.path.name}) has no input {port!r} "
                     f"(it has {', '.join(inner.inputs) or 'none'})",
-                    place,
+                    entry.place,
                     nearest_names(port, inner.inputs),
                 )
+
+    def _check_connections(
+        self, scope: Scope, node: NodeEntry, inner: Document, constants: Mapping[str, Setting]
+    ) -> None:
+        """Every input of a used graph gets its value from one side."""
         plugged = {name for name, wire in node.wires.items() if wire.names is not None}
         for name, entry in inner.inputs.items():
             if name not in plugged and name not in constants and not entry.may_stay_open:

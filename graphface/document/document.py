@@ -4,7 +4,8 @@ The names of nodes and inputs are words; a path ("face/landmarks") is the name t
 flat form of `graphface.document.effective`. This module knows the form of one file and nothing of the others: what
 another file says is known when files are composed (`graphface.document.compose`), what an operator's parameters are
 called when the graph is wired (`graphface.graph.wiring`). All mistakes of a file are collected and reported at once. A
-hand-written reader instead of a pydantic model, since pydantic copies the tree and loses the places on the way.
+hand-written reader instead of a pydantic model (`graphface.document.typed_yaml`), since here the values keep their
+places: what is wrong with many of them is only known later.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from graphface.document.located import Map, Seq, parse, plain
-from graphface.errors import Problem, UnreadableFile, nearest_names
+from graphface.document.located import Map, Seq, file_source, parse
+from graphface.errors import Problem, nearest_names
 from graphface.place import Place, Source
 
 FORMAT = 1
@@ -31,7 +32,10 @@ _NODE = ("use", "in", "with", "doc")
 
 @dataclass(frozen=True)
 class Setting:
-    """A value and the place, or the flag, that set it."""
+    """A value and the place, or the flag, that set it.
+
+    A mapping or list keeps its positions inside (`Map`, `Seq`) until it is used, when `plain` leaves them away.
+    """
 
     value: Any
     place: Place | None
@@ -80,9 +84,8 @@ class InputEntry:
 
 @dataclass
 class Document:
-    """One graph file."""
+    """One graph file; `path` is None for a text."""
 
-    source: Source
     path: Path | None
     name: str = ""
     doc: str = ""
@@ -98,27 +101,18 @@ def read_document(path: Path) -> tuple[Document, list[Problem]]:
     """The document in a graph file, and what is wrong with it.
 
     Raises:
-        UnreadableFile: there is no such file, or it is not text.
+        UnreadableFile: there is no such file, it is not UTF-8 text, or it is too large.
         DocumentError: it is not YAML.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise UnreadableFile(
-            path, f"not UTF-8 text (byte {error.start} is 0x{error.object[error.start]:02x})"
-        ) from None
-    except (OSError, ValueError) as error:
-        raise UnreadableFile(path, getattr(error, "strerror", None) or str(error)) from None
-    return parse_document(Source(str(path), text, path), path)
+    return parse_document(file_source(path))
 
 
-def parse_document(source: Source, path: Path | None = None) -> tuple[Document, list[Problem]]:
+def parse_document(source: Source) -> tuple[Document, list[Problem]]:
     """As `read_document`, from a text."""
     tree, problems = parse(source)
-    document = Document(source, path)
+    document = Document(source.path)
     if not isinstance(tree, Map):
-        start = source.place((1 << 20) | 1)
-        return document, [*problems, Problem("a graph file is a mapping that begins with 'graphface: 1'", start)]
+        return document, [*problems, Problem("a graph file is a mapping that begins with 'graphface: 1'", source.start)]
     return document, problems + list(_read_top(tree, document))
 
 
@@ -137,7 +131,7 @@ def read_overlay(entries: Any, place: Place, *, settings_only: bool) -> tuple[di
         elif not isinstance(body, Map):
             problems.append(Problem(f"expected a mapping for node {name!r}", entries.value_place(name)))
         elif settings_only:
-            node.settings = {key: Setting(plain(value), body.key_place(key)) for key, value in body.items()}
+            node.settings = {key: Setting(value, body.key_place(key)) for key, value in body.items()}
         else:
             problems += _read_node(body, node)
         found[name] = node
@@ -146,6 +140,20 @@ def read_overlay(entries: Any, place: Place, *, settings_only: bool) -> tuple[di
 
 def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
     yield from _unknown_keys(tree, _TOP, "a graph file")
+    yield from _read_head(tree, document)
+    yield from _read_inputs(tree, document)
+    yield from _read_nodes(tree, document)
+    yield from _read_outputs(tree, document)
+    yield from _read_overlays(tree, document)
+    for section in ("inputs", "nodes", "outputs", "variants", "profiles"):
+        if tree.get(section) is not None and not isinstance(tree[section], Map):
+            yield Problem(f"{section!r} is a mapping", tree.value_place(section))
+    for name in (name for name in document.nodes if name in document.inputs):
+        first = document.inputs[name].place
+        yield Problem(f"{name!r} is an input (line {first.line}) and a node; rename one", document.nodes[name].place)
+
+
+def _read_head(tree: Map, document: Document) -> Iterator[Problem]:
     version = tree.get("graphface")
     if version != FORMAT or isinstance(version, bool):
         place = tree.value_place("graphface") if "graphface" in tree else tree.place
@@ -161,25 +169,6 @@ def _read_top(tree: Map, document: Document) -> Iterator[Problem]:
             document.extends = Setting(tree["extends"], tree.value_place("extends"))
         else:
             yield Problem("'extends' names one graph file", tree.value_place("extends"))
-    yield from _read_inputs(tree, document)
-    for name, body, place, key_place in _section(tree, "nodes"):
-        yield from _check_path(name, key_place)
-        node = NodeEntry(name, key_place)
-        document.nodes[name] = node
-        if body is None:
-            node.removed = True
-        elif isinstance(body, Map):
-            yield from _read_node(body, node)
-        else:
-            yield Problem(f"node {name!r}: expected a mapping with 'use', 'in' and 'with'", place)
-    yield from _read_outputs(tree, document)
-    yield from _read_overlays(tree, document)
-    for section in ("inputs", "nodes", "outputs", "variants", "profiles"):
-        if tree.get(section) is not None and not isinstance(tree[section], Map):
-            yield Problem(f"{section!r} is a mapping", tree.value_place(section))
-    for name in (name for name in document.nodes if name in document.inputs):
-        first = document.inputs[name].place
-        yield Problem(f"{name!r} is an input (line {first.line}) and a node; rename one", document.nodes[name].place)
 
 
 def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
@@ -193,13 +182,26 @@ def _read_inputs(tree: Map, document: Document) -> Iterator[Problem]:
             yield from _unknown_keys(body, ("type", "default", "doc"), f"input {name!r}")
             entry = InputEntry(name, key_place, Setting(body["type"], body.value_place("type")))
             if "default" in body:
-                entry.default = Setting(plain(body["default"]), body.value_place("default"))
+                entry.default = Setting(body["default"], body.value_place("default"))
             entry.doc = str(body.get("doc") or "")
             document.inputs[name] = entry
         else:
             yield Problem(
                 f"input {name!r}: expected a type, as in '{name}: Image' or '{{type: Image, default: ...}}'", place
             )
+
+
+def _read_nodes(tree: Map, document: Document) -> Iterator[Problem]:
+    for name, body, place, key_place in _section(tree, "nodes"):
+        yield from _check_path(name, key_place)
+        node = NodeEntry(name, key_place)
+        document.nodes[name] = node
+        if body is None:
+            node.removed = True
+        elif isinstance(body, Map):
+            yield from _read_node(body, node)
+        else:
+            yield Problem(f"node {name!r}: expected a mapping with 'use', 'in' and 'with'", place)
 
 
 def _read_outputs(tree: Map, document: Document) -> Iterator[Problem]:
@@ -222,7 +224,7 @@ def _read_overlays(tree: Map, document: Document) -> Iterator[Problem]:
         for name, body, place, key_place in _section(tree, section):
             yield from _check_name(name, key_place)
             target[name], problems = read_overlay(
-                body if body is not None else Map(tree.source, 0), place, settings_only=settings_only
+                body if body is not None else Map(place), place, settings_only=settings_only
             )
             yield from problems
 
@@ -243,7 +245,7 @@ def _read_node(body: Map, node: NodeEntry) -> Iterator[Problem]:
         yield Problem("'in' maps ports to the names plugged into them", body.value_place("in"))
     settings = body.get("with")
     if isinstance(settings, Map):
-        node.settings = {key: Setting(plain(value), settings.key_place(key)) for key, value in settings.items()}
+        node.settings = {key: Setting(value, settings.key_place(key)) for key, value in settings.items()}
     elif settings is not None:
         yield Problem("'with' maps parameters to their values", body.value_place("with"))
 

@@ -18,7 +18,7 @@ from typing import Any
 
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
-from graphface.document.located import scalar
+from graphface.document.scalars import scalar
 from graphface.node import Operator
 from graphface.place import Place
 from graphface.registry import Registry

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from graphface.document.document import NAME, NodeEntry, Setting
-from graphface.document.located import parse, plain, scalar
+from graphface.document.located import parse, plain
 from graphface.document.overlays import Overlay, Rank
+from graphface.document.scalars import scalar
 from graphface.errors import DocumentError, Problem
 from graphface.place import Place, Source
 

@@ -1,26 +1,54 @@
-"""A JSON Schema of graph files, made from the registry, so that editors complete and check while typing.
+"""JSON Schemas, so that editors complete and check while typing: of graph files, made from the registry, and of files
+that are pydantic models.
 
-In a graph file, above the first line:  # yaml-language-server: $schema=graphface.document.schema.json
+    graphface schema -o graph.schema.json
+
+In a graph file, above the first line:  # yaml-language-server: $schema=graph.schema.json
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphface.document.document import TAKEN
+from graphface.errors import UnknownName
 from graphface.node import Operator
 from graphface.registry import Registry
 
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+_DRAFT = "https://json-schema.org/draft/2020-12/schema"
 _NAME = "^[A-Za-z_][A-Za-z0-9_-]*(/[A-Za-z_][A-Za-z0-9_-]*)*$"
 _GRAPH_FILE = r"\.ya?ml$"
+
+
+class UnknownKind(UnknownName):
+    kind = "kind of file"
+
+
+def schema_of(kind: str, registry: Registry) -> dict[str, Any]:
+    """The schema of a kind of file: "graph", or one that a pack describes.
+
+    Raises:
+        UnknownKind: with the nearest ones.
+    """
+    if kind == "graph":
+        return graph_schema(registry)
+    described = registry.schemas()
+    if kind not in described:
+        raise UnknownKind(kind, ["graph", *described])
+    source = described[kind]
+    schema: dict[str, Any] = model_schema(source) if hasattr(source, "model_fields") else source()
+    return schema
 
 
 def graph_schema(registry: Registry) -> dict[str, Any]:
     """The schema (draft 2020-12) of a graph file that uses the registry's operators and types."""
     node = _node_schema(registry.operators())
     return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$schema": _DRAFT,
         "title": "graphface graph",
         "type": "object",
         "required": ["graphface"],
@@ -53,6 +81,33 @@ def graph_schema(registry: Registry) -> dict[str, Any]:
             "node": node,
         },
     }
+
+
+def model_schema(model: type[BaseModel]) -> dict[str, Any]:
+    """The schema (draft 2020-12) of a YAML file that is a pydantic model."""
+    schema = model.model_json_schema(schema_generator=_lenient())
+    return {"$schema": _DRAFT, **_tagged(schema, schema.get("$defs", {}))}
+
+
+def _tagged(part: Any, definitions: dict[str, Any]) -> Any:
+    """Unions with a discriminator as rules "if `type` is this, then ...".
+
+    Pydantic writes `oneOf`, which holds for a member whose `type` is missing, and of which checkers mark the whole
+    value instead of the mistake.
+    """
+    if isinstance(part, list):
+        return [_tagged(item, definitions) for item in part]
+    if not isinstance(part, dict):
+        return part
+    if "propertyName" not in part.get("discriminator", {}):
+        return {key: _tagged(item, definitions) for key, item in part.items()}
+    key, members = part["discriminator"]["propertyName"], part["discriminator"]["mapping"]
+    docs = {tag: definitions[to.rpartition("/")[2]].get("description", "") for tag, to in members.items()}
+    tags = [{"const": tag, "description": doc.partition("\n")[0]} for tag, doc in docs.items()]
+    said = {"type": "object", "required": [key]}
+    rules = [{"if": said | {"properties": {key: {"const": tag}}}, "then": {"$ref": to}} for tag, to in members.items()]
+    found = {key: item for key, item in part.items() if key not in ("oneOf", "discriminator")}
+    return found | said | {"properties": {key: {"anyOf": tags}}, "allOf": rules}
 
 
 def _node_schema(operators: Iterable[Operator]) -> dict[str, Any]:

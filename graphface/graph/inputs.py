@@ -1,8 +1,9 @@
 """What a caller gives for a graph's inputs: files, arrays or values, known by content and loaded only when needed.
 
 A bound input has its digest at once and its value when somebody asks for it, so that a fully memoized run decodes no
-picture. The value is always what the digest was taken of, or results would be kept under the wrong keys: arrays that
-their owner may still write to are copied, and a file that was written to between hashing and reading is refused.
+picture. Only a pydantic model (a scene) is read at once: it is small, and its mistakes are found before anything runs.
+The value is always what the digest was taken of, or results would be kept under the wrong keys: arrays that their owner
+may still write to are copied, and a file that was written to between hashing and reading is refused.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from graphface.document.located import scalar
-from graphface.errors import InputError, UnreadableFile, nearest_names
+from graphface.document.located import plain
+from graphface.document.scalars import scalar
+from graphface.errors import DocumentError, InputError, UnreadableFile, nearest_names
 from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value
 from graphface.values.files import FilesOf, Reader
@@ -67,17 +69,22 @@ def bind(
     Raises:
         InputError: an unknown input, or a value of the wrong type.
         UnreadableFile: a file that does not exist.
+        DocumentError: mistakes in a pydantic model's file, or in its default in the graph file.
     """
     for name in given:
         if name not in inputs:
             raise InputError(
                 name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs)
             )
-    return {
+    bound = {
         name: _bind_one(entry, given, files_of, roots, stat_shortcut)
         for name, entry in inputs.items()
         if _has_value(entry, given)
     }
+    for name in bound:
+        if _is_model(inputs[name].type):
+            bound[name].value  # noqa: B018 - reads it
+    return bound
 
 
 def missing_inputs(inputs: Mapping[str, GraphInput], given: Mapping[str, Any]) -> list[str]:
@@ -102,6 +109,8 @@ def _bind_one(
             return _bind_file(entry, _given_file(value, roots), reader, stat_shortcut)
         return _bind_object(entry, _from_text(value, declared))
     default = entry.default.value if entry.default is not None else None
+    if not _is_model(declared):
+        default = plain(default)
     if reader is not None and isinstance(default, str):
         return _bind_file(entry, _default_file(entry, default, roots), reader, stat_shortcut)
     return _bind_object(entry, default)
@@ -131,13 +140,17 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
         raise InputError(entry.name, declared.problem(value) or "")
     try:
         own = with_arrays(value, _own)
-        digest = digest_value(("value", str(declared), own))
+        digest = digest_value(("value", str(declared), plain(own)))
     except TypeError as error:
         raise InputError(entry.name, str(error)) from None
 
     def load() -> Any:
         try:
             return declared.coerce(own)
+        except DocumentError as error:
+            if all(problem.place is not None for problem in error.problems):
+                raise
+            raise InputError(entry.name, str(error)) from None
         except (ValueError, TypeError) as error:
             raise InputError(entry.name, str(error)) from None
 
@@ -185,6 +198,10 @@ def _default_file(entry: GraphInput, name: str, roots: Sequence[Path]) -> Path:
         except (OSError, ValueError):  # a name that no file could have
             continue
     raise UnreadableFile(name, f"no such file beside the graph (default of input {entry.name!r}, {entry.place})")
+
+
+def _is_model(declared: PortType) -> bool:
+    return any(hasattr(atom, "model_fields") for atom in declared.alternatives)
 
 
 def _coercible(declared: PortType) -> bool:

@@ -1,1 +1,2 @@
-"""Putting a layer onto a picture: `blend.linear`, `blend.multiband`, `blend.poisson`, with the same ports."""
+"""Blending a layer onto a picture: `linear`, `multiband` and `poisson` have the same ports; `recombine` puts a picture
+together from albedo, shading and detail."""

@@ -1,4 +1,4 @@
-"""The plain mixture."""
+"""Alpha blending."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ from graphface.nodes.types import Image, Landmarks, Mask
 
 @node("blend.linear")
 def linear(base: Image, layer: Image, mask: Mask, landmarks: Landmarks) -> Image:
-    """base + mask * (layer - base). Where the mask is 0 the base is untouched, to the last bit."""
+    """base + mask * (layer - base). Where the mask is 0 the base does not change by a bit."""
     return base.with_pixels(base.pixels + mask[..., None] * (layer.pixels - base.pixels))

@@ -1,8 +1,8 @@
 """Pérez, Gangnet, Blake, Poisson Image Editing, SIGGRAPH 2003, in its screened form.
 
-The layer's gradients are kept and the base's values met at the edge of the mask. Left alone, that would also undo the
-new tone inside, which is what makeup is for; so the values are pulled towards the layer's with a strength that falls
-to nothing at the edge (Bhat et al., Fourier Analysis of the 2D Screened Poisson Equation, ECCV 2008).
+The layer's gradients are kept, and the base's values are met at the edge of the mask. Without screening that would undo
+the new tone inside as well, which is the purpose of makeup. So the values are attracted to the layer's with a strength
+that decays towards the edge (Bhat et al., Fourier Analysis of the 2D Screened Poisson Equation, ECCV 2008).
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
@@ -28,35 +29,35 @@ def poisson(
     resolution: Annotated[int, Field(ge=8, le=256)] = 48,
     sweeps: Annotated[int, Field(ge=1, le=1000)] = 60,
 ) -> Image:
-    """The layer inside of the mask's edge, its gradients across it.
+    """The layer inside of the mask's edge, with its own gradients across the edge.
 
     With h = layer - base, the correction c that is added to the layer solves laplace(c) = k c inside, and c = -h on the
     edge. It is smooth, so it is solved on a small copy.
 
     Args:
-        reach: distance over which the edge's influence falls to 1/e, in inter-ocular distances.
-        resolution: pixels per inter-ocular distance of the copy. sweeps: of Jacobi's method, over-relaxed.
+        reach: distance 1 / sqrt(k) over which the influence of the edge decays to 1/e, in inter-ocular distances.
+        resolution: pixels per inter-ocular distance of the copy.
+        sweeps: of Jacobi's method.
     """
     if not (mask > 0).any():
         return base
     change = mask[..., None] * (layer.pixels - base.pixels)
     copy = face_scale(landmarks, mask.shape, resolution)
     weight = copy.down(mask)
-    pull = 1 / max(reach * copy.interocular, 0.5) ** 2
-    correction = _screened(-copy.down(change), weight >= 0.5 * float(weight.max()), pull, sweeps)
+    screening = 1 / max(reach * copy.interocular, 0.5) ** 2
+    correction = _screened(-copy.down(change), weight >= 0.5 * float(weight.max()), screening, sweeps)
     return base.with_pixels(base.pixels + change + mask[..., None] * copy.up(correction))
 
 
-def _screened(
-    edge: FloatArray, inside: np.ndarray[tuple[int, int], np.dtype[np.bool_]], pull: float, sweeps: int
-) -> FloatArray:
-    """laplace(c) = pull * c inside, c = edge outside: Jacobi sweeps, which converge like a geometric series in pull."""
+def _screened(edge: FloatArray, inside: NDArray[np.bool_], screening: float, sweeps: int) -> FloatArray:
+    """laplace(c) = screening * c inside, c = edge outside, by Jacobi's method: each sweep divides the error by at least
+    1 + screening / 4."""
     import cv2
 
     neighbours = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], np.float32)
     within = inside[..., None]
     c = np.where(within, 0, edge).astype(np.float32)
     for _ in range(sweeps):
-        around = cv2.filter2D(c, -1, neighbours, borderType=cv2.BORDER_REPLICATE)
-        c = np.where(within, around / np.float32(4 + pull), c).astype(np.float32)
+        total = cv2.filter2D(c, -1, neighbours, borderType=cv2.BORDER_REPLICATE)
+        c = np.where(within, total / np.float32(4 + screening), c).astype(np.float32)
     return c

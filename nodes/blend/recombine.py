@@ -1,4 +1,4 @@
-"""Putting a picture together again from its parts."""
+"""A picture put together from albedo, shading and detail map."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def recombine(
     *,
     shoulder: Annotated[float, Field(ge=0, le=1)] = 0.5,
 ) -> Image:
-    """I(x) = rho(x) s(x) + I_d(x) (paper, equation 3), over the whole picture, kept within what a picture can show.
+    """I(x) = rho(x) s(x) + I_d(x) (paper, equation 3), over the whole picture, in the range that a picture can show.
 
     Args:
         photo: the picture before, in the encoding of albedo, shading and detail; alpha and file format come from it.
         shading: H x W or H x W x 3.
-        shoulder: how much of the room between a pixel and white (or black, where it gets darker) is used to bend an
-            overshooting change instead of clipping it; 0 clips. A pixel that does not change is never touched.
+        shoulder: share of the headroom between a pixel and white (or black, where it gets darker) over which a change
+            is bent instead of clipped; 0 clips. A pixel that does not change stays as it is.
             (Measured on path-traced heads: 0.5 gains 0.1 dB over 0 and loses nothing anywhere; 1 costs 1 to 2 dB.)
 
     Returns:

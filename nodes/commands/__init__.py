@@ -1,0 +1,1 @@
+"""Command lines that know about faces: demo, gallery, bench, models."""

@@ -9,9 +9,9 @@ import typer
 
 if TYPE_CHECKING:
     from graphface import Result
-    from graphface.nodes.commands.sheet import Picture
+    from graphface.nodes.bench.contact_sheet import Picture
 
-SCENES = ("window-left", "rim-right", "red-blue")
+SCENES = ("golden-hour", "moonlight", "red-blue")
 _STAGES = {
     "normals": ("face.normals", "Normals"),
     "face mask": ("face.mask", "Mask"),
@@ -28,10 +28,11 @@ def demo(
         Path | None, typer.Option(help="A photograph; scikit-image's astronaut (Eileen Collins, NASA) by default.")
     ] = None,
 ) -> None:
-    """Relight a photograph under three scenes; writes the pictures and a contact sheet of every stage."""
+    """Relight a photograph under three scenes; writes the pictures, a row of all, and a sheet of every stage."""
     import os
 
     from graphface import Evaluator, MemoryTier, load
+    from graphface.nodes.bench.shipped import astronaut
     from graphface.nodes.io.image_write import write_image, write_picture
     from graphface.report.terminal import ProgressBar, print_times, print_warnings
     from graphface.values.writing import make_folder
@@ -50,15 +51,26 @@ def demo(
     assert results is not None
     for scene, image in relit.items():
         write_image(image, folder / f"{scene}.png")
+    write_picture(_row(results, relit), folder / "demo.jpg")
     write_picture(_sheet(results, relit), folder / "contact-sheet.png")
     print_times(records, title=f"{len(SCENES)} scenes")
     print_warnings(results.warnings)
-    print(f"wrote {', '.join(f'{scene}.png' for scene in SCENES)} and contact-sheet.png to {folder}/")
+    print(f"wrote {', '.join(f'{scene}.png' for scene in SCENES)}, demo.jpg and contact-sheet.png to {folder}/")
+
+
+def _row(results: Result, relit: dict[str, Any]) -> Picture:
+    """The face as it was and under each scene, side by side: the picture that the README opens with."""
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet
+    from graphface.nodes.types import Image
+
+    near = around_face(results["face.landmarks"], results["photo"], reach=1.7)
+    cells = {"photo": results["photo"], **relit}
+    return contact_sheet([(name, Image.picture(cell)[near]) for name, cell in cells.items()], columns=4, width=300)
 
 
 def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
     """The photo whole, every stage around the face."""
-    from graphface.nodes.commands.sheet import around_face, contact_sheet, mesh_overlay, picture_of
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet, mesh_overlay, picture_of
     from graphface.nodes.types import Image
 
     photo, landmarks = results["photo"], results["face.landmarks"]
@@ -68,10 +80,3 @@ def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
     cells += [(caption, picture_of(results[name], kind)[near]) for caption, (name, kind) in _STAGES.items()]
     cells += [(f"relit: {scene}", Image.picture(image)[near]) for scene, image in relit.items()]
     return contact_sheet(cells, columns=4)
-
-
-def astronaut() -> Any:
-    """The photograph that scikit-image carries: uint8, 512 x 512 x 3."""
-    from skimage.data import astronaut
-
-    return astronaut()  # type: ignore[no-untyped-call]

@@ -25,8 +25,8 @@ def gallery(
     import os
 
     from graphface import Evaluator, MemoryTier, load
-    from graphface.nodes.commands.demo import astronaut
-    from graphface.nodes.commands.sheet import around_face, contact_sheet
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet
+    from graphface.nodes.bench.shipped import astronaut, shipped_scenes
     from graphface.nodes.io.image_write import write_image, write_picture
     from graphface.nodes.types import Image
     from graphface.values.writing import make_folder
@@ -70,10 +70,3 @@ def _check_names(files: list[Path]) -> None:
                 "rename one of the two"
             )
         known[file.stem] = file
-
-
-def shipped_scenes() -> list[Path]:
-    """The scene files that come with graphface, by name."""
-    import graphface.graphs
-
-    return sorted((Path(graphface.graphs.__file__ or "").parent / "scenes").glob("*.yaml"))

@@ -10,7 +10,7 @@ import typer
 if TYPE_CHECKING:
     from graphface.nodes.morphable.model import MorphableModel
 
-app = typer.Typer(
+app: typer.Typer = typer.Typer(
     help="List, import, describe, learn or correct 3-D face models; learn the network that labels.",
     no_args_is_help=True,
 )
@@ -85,14 +85,14 @@ def learn(
     name: Annotated[str, typer.Option(help="What to call the model.")] = "learned",
     identity: Annotated[int, typer.Option(min=1, help="Identity components.")] = 15,
     expression: Annotated[int, typer.Option(min=0, help="Expression components.")] = 10,
-    card: Annotated[Path | None, typer.Option(help="JSON with further words for the card.")] = None,
+    card: Annotated[Path | None, typer.Option(help="JSON with more for the model's card.")] = None,
 ) -> None:
     """Learn a model from photographs: the built-in one was made so (see its card)."""
-    from graphface.nodes.commands.learning import learn_from_photos
+    from graphface.nodes.learning.face_model import learn_from_photos
     from graphface.nodes.morphable.storage import save_model
 
     expression = expression if people is not None else 0
-    model, lesson = learn_from_photos(folder, people, name, identity=identity, expression=expression, words=card)
+    model, lesson = learn_from_photos(folder, people, name, identity=identity, expression=expression, card=card)
     save_model(model, out, half=True)
     print(
         f"{out}: from {lesson.faces} portraits and {lesson.photos_of_people} photographs of {lesson.people} people; "
@@ -108,7 +108,7 @@ def relief(
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("relief.safetensors"),
 ) -> None:
     """Correct a learned model's relief by heads whose normals are known: the last step of making the built-in one."""
-    from graphface.nodes.commands.relief_truth import relief_of_heads
+    from graphface.nodes.learning.relief import relief_of_heads
     from graphface.nodes.morphable.storage import load_model, save_model
 
     better, off = relief_of_heads(load_model(model, refine=False), data)
@@ -129,19 +129,19 @@ def labels(
     ] = None,
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("labels.safetensors"),
     steps: Annotated[int | None, typer.Option(min=1, help="Steps of eight pictures; as shipped by default.")] = None,
-    card: Annotated[Path | None, typer.Option(help="JSON with further words for the card.")] = None,
+    card: Annotated[Path | None, typer.Option(help="JSON with more for the model's card.")] = None,
 ) -> None:
     """Learn the small network of masks.cue; needs PyTorch and graphface[network]. The shipped one was made so."""
     from dataclasses import replace
 
-    from graphface.nodes.commands.label_learning import Course, learn_labels
-    from graphface.nodes.commands.learning import words_of
+    from graphface.nodes.learning.face_model import read_card
+    from graphface.nodes.learning.label_learning import Course, learn_labels
     from graphface.nodes.masks.label_weights import write_weights
 
-    said = words_of(card)
+    given = read_card(card)
     course = Course() if steps is None else replace(Course(), steps=steps)
     weights, made = learn_labels(photos, portraits, people, data, course, without or ())
-    write_weights(weights, {**said, **made}, out)
+    write_weights(weights, {**given, **made}, out)
     print(f"{out}: from {made['variations']} variations of {made['photographs']} photographs and of truth")
 
 

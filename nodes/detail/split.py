@@ -1,12 +1,13 @@
 """A detail map that is a ratio where light is taken away and a difference where light is added.
 
 A dark residual may be a brow, a crease or a cast shadow, a bright one a highlight or a freckle; a single photo cannot
-tell. What matters is whether the light gets less or more, not the frequency band of the residual. On path-traced heads
-with known lights and without shadows, scale-invariant PSNR in dB:
+tell. What matters is whether the light gets less or more. With the shipped graph (`graphface bench lights`;
+scale-invariant PSNR in dB on path-traced heads, scale-invariant squared error on photographs of the Yale set):
 
-    source -> target                      additive   ratio   split by band at 0.1   this
-    frontal -> six lights                    24.98   25.35                  25.11   25.41
-    left45, top, left80_hard -> others       22.49   21.07                  21.49   22.65
+    source -> target                          additive    ratio     this
+    frontal -> six lights                        28.27    28.86    28.89
+    left45 -> six lights (--source left45)       25.81    24.62    26.34
+    frontal -> eight lights (--truth yale)      0.0137   0.0119   0.0116
 
 Where light is taken away the whole pixel loses it, highlights included, and a difference would leave them glowing: the
 ratio is better. Where light is added the ratio multiplies darkness of unknown cause by unbounded factors ("odd-looking

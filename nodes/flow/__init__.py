@@ -1,1 +1,4 @@
-"""Dense optical flow that refines the meshes' correspondence: one file a method, `refine` what they share."""
+"""Dense optical flow that refines the correspondence of the meshes (paper: "optical flow based warping").
+
+One file per method, which computes the displacement between two grey pictures; `refine` makes an operator of it.
+"""

@@ -1,4 +1,4 @@
-"""No flow: the meshes alone."""
+"""No flow: the correspondence of the meshes alone."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ from graphface.nodes.types import Correspondence, Image, Landmarks
 
 @node("flow.none")
 def none(photo: Image, reference: Image, correspondence: Correspondence, landmarks: Landmarks) -> Correspondence:
-    """The correspondence as it comes."""
+    """The correspondence as it is."""
     return correspondence

@@ -9,7 +9,7 @@ import numpy as np
 
 from graphface import UnwritableFile, UsageError
 from graphface.nodes.face_coordinates import mesh_uv
-from graphface.nodes.io.files import MESHES
+from graphface.nodes.io.suffixes import MESHES
 from graphface.nodes.types import Image, Mesh, Texture
 
 

@@ -1,7 +1,8 @@
-"""Makeup transfer (paper, section "Makeup Transfer"), a stage a file, in the order in which the graph runs them.
+"""Makeup transfer (paper, section "Makeup Transfer"), one stage per file, in the order in which the graph runs them.
 
-`features` where eyes, lips, nose ... are; `albedo` and `shading` the reference's paint under the input's light;
-`detail` the blended detail map; `skin` and `coverage` where paint may go and how strongly, `loose_hair` what of it no
-strand of hair hides, `beard` what of it is no beard; `boundary` the way from the painted face to neck, ears and
-hairline.
+`features` draws masks of eyes, lips, nose and other parts. `skin` is what may be painted, `loose_hair` and `beard`
+remove hair from it, `occluders` finds glasses and lashes, and `core` joins them all. `pigment` takes creases and shine
+out of the albedo. `albedo` and `shading` put the reference's paint under the input's light, `detail` blends the detail
+maps by the shares of `keep`, `boundary` continues the painted face to neck, ears and hairline, and `coverage` says how
+strongly each pixel is made up.
 """

@@ -1,9 +1,9 @@
-"""From the painted face to neck, ears and hairline (paper, "Boundary processing").
+"""The painted face continued to neck, ears and hairline (paper, "Boundary processing").
 
-The face's boundary is shrunk, and a ring beyond it mirrored from inside. Here it is the change that is mirrored, as a
-factor on the input's pixels, not the pixels: the ring keeps the input's own texture, nothing is seen twice, and where
-nothing changes the ring does not either. Beyond the ring the factor goes over into that of the skin as a whole, so that
-neck and ears take the face's new tone.
+The paper shrinks the face's boundary and fills a ring beyond it by mirror mapping of the pixels. Here the change from
+the input to the painted face is mirrored, as a factor on the input's pixels. The ring then keeps the input's own
+texture, no feature is seen twice, and where painting changes nothing the ring does not change either. Farther out the
+factor fades into the average factor of the skin, so that neck and ears take the face's new tone.
 """
 
 from __future__ import annotations
@@ -15,21 +15,26 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.blur import gaussian
 from graphface.nodes.color import in_three_channels
-from graphface.nodes.face_scale import face_scale
+from graphface.nodes.face_scale import FaceScale, face_scale
+from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Features, FloatArray, Image, Landmarks, Mask
 
-_FLOOR = 0.05
-"""Added to both sides of the factor: black stays near black."""
+_FLOOR = np.float32(0.05)
+"""Added to both pictures before the ratio is taken: black stays near black."""
 
 
-_MOST = 2.0
-"""Largest magnitude of the factor's logarithm."""
+_LARGEST_LOG_FACTOR = 2.0
+
+
+_NEAR, _AROUND = 0.03, 0.4
+"""Sigmas, in inter-ocular distances, of the Gaussians that the factor is smoothed and averaged by."""
 
 
 _TEXTURE = np.float32(0.08)
-"""What differs by less from its surroundings is texture, which brighter skin shows no stronger."""
+"""A pixel that differs by less from its smoothed surroundings is texture, and texture is not amplified."""
 
 
 @node("makeup.boundary")
@@ -43,94 +48,112 @@ def boundary(
     ring: Annotated[float, Field(ge=0, le=2)] = 0.15,
     resolution: Annotated[int, Field(ge=8, le=256)] = 64,
 ) -> Image:
-    """The painted face, continued over the whole picture.
+    """The painted face inside `core`, and beyond it the input times the continued factor, over the whole picture.
 
     Args:
         photo: the input. painted: valid where `core` is not 0.
         ring: width of the mirrored ring, in inter-ocular distances (the paper's 30 pixels on its photos).
-        resolution: pixels per inter-ocular distance of the copy on which the change is continued.
+        resolution: pixels per inter-ocular distance of the copy on which the factor is continued.
     """
-    import cv2
-
     if not (core > 0).any():
         return photo
     copy = face_scale(landmarks, core.shape, resolution)
-    unit = copy.interocular
     weight, before = copy.down(core), copy.down(photo.pixels)
-    change = np.log(np.maximum(copy.down(painted.pixels), 0) + np.float32(_FLOOR))
-    change -= np.log(np.maximum(before, 0) + np.float32(_FLOOR))
+    log_factor = np.log(np.maximum(copy.down(painted.pixels), 0) + _FLOOR)
+    log_factor -= np.log(np.maximum(before, 0) + _FLOOR)
     known = weight >= min(0.5, float(weight.max()))
-    bare = known & (copy.down(features.any_of("eyes", "mouth", "lips", "lids", "brows")) < 0.1)
-    bare = bare if bare.any() else known
-    change = np.clip(change, -_MOST, _MOST)
-    around = _averaged(change, bare, 0.4 * unit)
-    change[known & ~bare] = around[known & ~bare]  # lips and brows have no place in the ring
-    continued = _continued(change, known, around, max(ring * unit, 1e-3), unit)
-    factor = copy.up(np.exp(continued))
-    smooth = cv2.GaussianBlur(before, (0, 0), max(0.03 * unit, 0.5), borderType=cv2.BORDER_REPLICATE)
-    broad = copy.up(np.asarray(smooth, np.float32))
-    # What shines more than skin does is no skin color: it moves with the skin, and is not multiplied.
-    matte = np.quantile(before[bare], 0.8, axis=0).astype(np.float32)
-    opening = np.maximum(features.eyes, features.mouth)
-    pixels = np.empty_like(photo.pixels)
-
-    def strip(rows: slice) -> None:
-        own, more = photo.pixels[rows], factor[rows] - 1
-        if opening[rows].any():  # teeth and eyes are no skin, whatever its tone
-            more *= in_three_channels(1 - opening[rows])
-        # Where it gets darker everything in the pixel does; where it gets brighter, pores and grain stay what they are.
-        off = broad[rows] - own
-        skin = own + off * np.clip(2 - np.abs(off) * (1 / _TEXTURE), 0, 1) * (more > 0)
-        beyond = own + _limited((np.minimum(skin, matte) + np.float32(_FLOOR)) * more, own)
-        pixels[rows] = beyond + in_three_channels(core[rows]) * (painted.pixels[rows] - beyond)
-
-    by_strips(strip, pixels.shape)
-    return photo.with_pixels(pixels)
+    skin = known & (copy.down(features.any_of("eyes", "mouth", "lips", "lids", "brows")) < 0.1)
+    skin = skin if skin.any() else known
+    log_factor = np.clip(log_factor, -_LARGEST_LOG_FACTOR, _LARGEST_LOG_FACTOR)
+    average = _local_average(log_factor, skin, _AROUND * copy.interocular)
+    log_factor[known & ~skin] = average[known & ~skin]  # lips and brows are not mirrored into the ring
+    factor = copy.up(np.exp(_extrapolated(log_factor, known, average, ring, copy)))
+    return _composed(photo, painted, core, features, factor, before, skin, copy)
 
 
-def _limited(change: FloatArray, pixels: FloatArray) -> FloatArray:
-    """The change, bent to stay within the room that each value has left; small changes pass as they are."""
-    room = np.where(change > 0, 1 - pixels, pixels)
-    np.maximum(room, np.float32(1e-4), out=room)
-    used = np.divide(change, room, out=room)
-    np.square(used, out=used)
-    np.square(used, out=used)
-    used += 1
-    np.sqrt(used, out=used)
-    np.sqrt(used, out=used)
-    return np.asarray(np.divide(change, used, out=used), np.float32)
-
-
-def _averaged(change: FloatArray, bare: NDArray[np.bool_], reach: float) -> FloatArray:
-    """The change of the bare skin around every pixel; far from the face, of all of it."""
+def _local_average(log_factor: FloatArray, skin: NDArray[np.bool_], sigma: float) -> FloatArray:
+    """Gaussian average over the skin near each pixel, h x w x 3; far from the face the median over all skin."""
     import cv2
 
-    whole = np.median(change[bare], axis=0).astype(np.float32)
-    near = np.dstack([np.where(bare[..., None], change - whole, 0), bare.astype(np.float32)])
-    near = cv2.GaussianBlur(near, (0, 0), max(reach, 0.5), borderType=cv2.BORDER_CONSTANT)
-    return np.asarray(whole + near[..., :3] / (near[..., 3:] + np.float32(0.05)), np.float32)
+    median = np.median(log_factor[skin], axis=0).astype(np.float32)
+    sums = np.dstack([np.where(skin[..., None], log_factor - median, 0), skin.astype(np.float32)])
+    sums = cv2.GaussianBlur(sums, (0, 0), max(sigma, 0.5), borderType=cv2.BORDER_CONSTANT)
+    return np.asarray(median + sums[..., :3] / (sums[..., 3:] + np.float32(0.05)), np.float32)
 
 
-def _continued(
-    change: FloatArray, known: NDArray[np.bool_], around: FloatArray, ring: float, unit: float
+def _extrapolated(
+    log_factor: FloatArray, known: NDArray[np.bool_], average: FloatArray, ring: float, copy: FaceScale
 ) -> FloatArray:
-    """The change, mirrored at the boundary within `ring` pixels of it, then going over into that of the skin around."""
+    """The factor where it is known, mirrored at the boundary within the ring, fading into the average beyond it."""
     import cv2
 
     distance, label = cv2.distanceTransformWithLabels(
         (~known).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
     )
     y, x = np.mgrid[: known.shape[0], : known.shape[1]].astype(np.float32)
-    at = np.zeros((int(label.max()) + 1, 2), np.float32)
-    at[label[known]] = np.stack([x[known], y[known]], axis=1)
-    nearest = at[label]
+    position_of_label = np.zeros((int(label.max()) + 1, 2), np.float32)
+    position_of_label[label[known]] = np.stack([x[known], y[known]], axis=1)
+    nearest = position_of_label[label]
     mirrored = 2 * nearest - np.dstack([x, y])
+    values = np.where(known[..., None], log_factor, average)
+
+    def at(positions: FloatArray) -> FloatArray:
+        remapped = cv2.remap(values, positions, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+        return np.asarray(remapped, np.float32)
+
     inside = cv2.remap(known.astype(np.float32), mirrored, None, cv2.INTER_LINEAR, borderValue=0)[..., None]  # type: ignore[call-overload]
-    values = np.where(known[..., None], change, around)
-    reflected = cv2.remap(values, mirrored, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
-    edge = cv2.remap(values, nearest, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+    reflected = at(mirrored)
+    edge = at(nearest)  # where the mirrored position is outside of the face, the nearest pixel's value is used
     reflected = edge + np.clip(inside * 2 - 1, 0, 1) * (reflected - edge)
-    near = cv2.GaussianBlur(np.where(known[..., None], change, reflected), (0, 0), max(0.03 * unit, 0.5))
-    t = np.clip(distance / ring, 0, 1)[..., None]
-    t = t * t * (3 - 2 * t)
-    return np.asarray(near + t * (around - near), np.float32)
+    joined = np.where(known[..., None], log_factor, reflected)
+    near = cv2.GaussianBlur(joined, (0, 0), max(_NEAR * copy.interocular, 0.5))
+    t = smoothstep(np.asarray(distance / max(ring * copy.interocular, 1e-3), np.float32))[..., None]
+    return np.asarray(near + t * (average - near), np.float32)
+
+
+def _composed(
+    photo: Image,
+    painted: Image,
+    core: Mask,
+    features: Features,
+    factor: FloatArray,
+    before: FloatArray,
+    skin: NDArray[np.bool_],
+    copy: FaceScale,
+) -> Image:
+    """core * painted + (1 - core) * photo changed by the factor; `before` and `skin` are the photo and skin, reduced.
+
+    Eyes and teeth keep their color, whatever the skin's tone becomes.
+    """
+    smooth = copy.up(gaussian(before, _NEAR * copy.interocular))
+    # What is brighter than most skin (shine) does not have the skin's color: it is shifted with it, not multiplied.
+    brightest = np.quantile(before[skin], 0.8, axis=0).astype(np.float32)
+    openings = features.openings
+    pixels = np.empty_like(photo.pixels)
+
+    def strip(rows: slice) -> None:
+        values, excess = photo.pixels[rows], factor[rows] - 1
+        if openings[rows].any():
+            excess *= in_three_channels(1 - openings[rows])
+        # A darker tone scales the texture, too; a brighter one leaves pores and grain as they are.
+        texture = smooth[rows] - values
+        base = values + texture * np.clip(2 - np.abs(texture) * (1 / _TEXTURE), 0, 1) * (excess > 0)
+        change = (np.minimum(base, brightest) + _FLOOR) * excess
+        beyond = values + _soft_limited(change, values)
+        pixels[rows] = beyond + in_three_channels(core[rows]) * (painted.pixels[rows] - beyond)
+
+    by_strips(strip, pixels.shape)
+    return photo.with_pixels(pixels)
+
+
+def _soft_limited(change: FloatArray, values: FloatArray) -> FloatArray:
+    """d / (1 + (d / h)^4)^(1/4): the change d bent so that it stays below the headroom h to white, or to black."""
+    headroom = np.where(change > 0, 1 - values, values)
+    np.maximum(headroom, np.float32(1e-4), out=headroom)
+    power = np.divide(change, headroom, out=headroom)
+    np.square(power, out=power)
+    np.square(power, out=power)
+    power += 1
+    np.sqrt(power, out=power)
+    np.sqrt(power, out=power)
+    return np.asarray(np.divide(change, power, out=power), np.float32)

@@ -26,10 +26,12 @@ def coverage(
     cheeks: Strength = 1.0,
     base: Strength = 1.0,
 ) -> Mask:
-    """Strength of the makeup: of the whole, and of lips, lids (eye shadow), brows, cheeks and the other skin (`base`).
+    """The opacity of the makeup layer, H x W, 0 to 1.
 
     Args:
-        skin: where paint may go. strengths: a user's own mask, multiplied on top.
+        skin: where makeup may be applied.
+        strengths: a user's own mask, multiplied on top.
+        strength: of all. lips, lids (eye shadow), brows, cheeks, base (all other skin): of single parts.
     """
     amount = np.full_like(skin, base)
     for part, share in ((features.cheeks, cheeks), (features.lids, lids), (features.brows, brows)):

@@ -1,9 +1,10 @@
 """The blended detail map I_d^b(i, r) (paper, section "Makeup Transfer").
 
-What makes a face its owner's is relief, and relief is fine: the line between the lips, the wings of the nose, the folds
-of the lids. What makes up a face is broad: the darkness of a lipstick, a stripe. Around eyes, nose and mouth the
-input's fine detail therefore sits on the reference's broad detail; in the openings all of it is the input's; elsewhere,
-the reference's (caking, powder and smears are what real makeup looks like).
+The paper keeps the input's detail map around eyes, nose and mouth, and takes the reference's elsewhere, where caking,
+powder and smears are what makes makeup look real. Here a Gaussian splits both maps into two bands. A face's identity is
+in fine relief: the line between the lips, the wings of the nose, the folds of the lids. Its makeup is broad: the
+darkness of a lipstick, a stripe. So around eyes, nose and mouth the input's fine band is added to the reference's broad
+band; in the openings of eyes and mouth both bands are the input's.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.blur import blurred
+from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.color import in_three_channels
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import DetailMap, Features, FloatArray, Landmarks, Mask
@@ -33,67 +35,61 @@ def detail(
     *,
     fine: Annotated[float, Field(gt=0, le=1)] = 0.04,
 ) -> DetailMap:
-    """The input's detail map in the openings, its fine part where `keep` says, else the reference's.
+    """The reference's detail map with a share of the input's fine band, and all of the input's map in the openings.
 
     Args:
-        detail: the input's. reference: the reference's, warped to the input.
-        fine: what counts as fine: the scale of the Gaussian that is taken off, in inter-ocular distances.
+        detail: I_d^(i), the input's. reference: I_d^(r), warped to the input.
+        keep: share of the fine band that is the input's, of `makeup.keep`.
+        fine: sigma of the Gaussian that separates fine from broad detail, in inter-ocular distances.
 
     Returns:
         A map with the parts (offset, gain, pivot) that either of the two has.
     """
     sigma = max(fine * landmarks.interocular, 0.5)
-    opening = np.maximum(features.eyes, features.mouth)
+    openings = features.openings
     parts = {}
     for name in vars(reference):
-        own, other = getattr(detail, name), getattr(reference, name)
-        if own is not None or other is not None:
+        of_input, of_reference = getattr(detail, name), getattr(reference, name)
+        if of_input is not None or of_reference is not None:
             neutral = np.zeros if name == "offset" else np.ones
-            own, other = (v if v is not None else neutral((*keep.shape, 3), np.float32) for v in (own, other))
-            parts[name] = _blended(own, other, keep, opening, features.lips, sigma)
+            both = (v if v is not None else neutral((*keep.shape, 3), np.float32) for v in (of_input, of_reference))
+            parts[name] = _blended(*both, keep, openings, features.lips, sigma)
     return replace(reference, **parts)
 
 
-def _blended(own: FloatArray, other: FloatArray, keep: Mask, opening: Mask, lips: Mask, sigma: float) -> FloatArray:
-    """other + keep * (fine(own) - fine(other)), and `own` in the openings. Taking the fine part is linear: one blur."""
-    window = _box(keep)
-    if window is None:
-        return other
-    blended = other.copy()
-    difference = own[window] - other[window]
-    broad = _broad(difference, lips[window], sigma)
-    kept, openings, into = keep[window], opening[window], blended[window]
+def _blended(
+    of_input: FloatArray, of_reference: FloatArray, keep: Mask, openings: Mask, lips: Mask, sigma: float
+) -> FloatArray:
+    """of_reference + keep * fine(of_input - of_reference) outside of the openings, and of_input in them.
+
+    The high-pass filter `fine` is linear, so the difference alone is filtered.
+    """
+    box = bounding_box(keep)
+    if box is None:
+        return of_reference
+    blended = of_reference.copy()
+    difference = of_input[box] - of_reference[box]
+    broad = _broad(difference, lips[box], sigma)
+    keep, openings, into = keep[box], openings[box], blended[box]
 
     def strip(rows: slice) -> None:
-        share = kept[rows] * (1 - openings[rows])
-        fully = in_three_channels(share + openings[rows])
-        into[rows] += fully * difference[rows] - in_three_channels(share) * broad[rows]
+        share = keep[rows] * (1 - openings[rows])
+        whole = in_three_channels(share + openings[rows])
+        into[rows] += whole * difference[rows] - in_three_channels(share) * broad[rows]
 
     by_strips(strip, difference.shape)
     return blended
 
 
 def _broad(values: FloatArray, lips: Mask, sigma: float) -> FloatArray:
-    """Blurred, but not across the outline of the lips: how dark a thin lip is painted would count as fine otherwise."""
+    """Low-pass filtered, with lips and skin apart: else the darkness of a lipstick on thin lips would count as fine."""
     broad = blurred(values, sigma)
-    around = _box(lips, margin=round(3 * sigma))
+    around = bounding_box(lips, margin=round(3 * sigma))
     if around is not None:
         weight, near = lips[around], values[around]
-        inner = blurred(np.dstack([near * weight[..., None], weight]), sigma)
-        within, inside = inner[..., :3], inner[..., 3:]
-        outside = np.maximum(1 - inside, _LEAST_WEIGHT)
-        beyond = (broad[around] - within) / outside
-        within /= np.maximum(inside, _LEAST_WEIGHT)
-        broad[around] = beyond + weight[..., None] * (within - beyond)
+        sums = blurred(np.dstack([near * weight[..., None], weight]), sigma)
+        on_lips, weight_on_lips = sums[..., :3], sums[..., 3:]
+        on_skin = (broad[around] - on_lips) / np.maximum(1 - weight_on_lips, _LEAST_WEIGHT)
+        on_lips /= np.maximum(weight_on_lips, _LEAST_WEIGHT)
+        broad[around] = on_skin + weight[..., None] * (on_lips - on_skin)
     return broad
-
-
-def _box(mask: Mask, margin: int = 0) -> tuple[slice, slice] | None:
-    """The bounding box of what is not 0, grown by some pixels, or None."""
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    if rows.size == 0:
-        return None
-    first, last = (max(0, n[0] - margin) for n in (rows, columns)), (n[-1] + 1 + margin for n in (rows, columns))
-    top, left = first
-    bottom, right = last
-    return slice(top, bottom), slice(left, right)

@@ -1,4 +1,4 @@
-"""Soft masks of the parts of a face that makeup treats differently, drawn from the 468 points."""
+"""Soft masks of the parts of a face that makeup treats differently, drawn as polygons through FaceMesh's points."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from pydantic import Field
 
 from graphface import UsageError, node, warn
 from graphface.nodes.blur import blurred
+from graphface.nodes.bounding_box import Box
 from graphface.nodes.types import Features, FloatArray, Image, Landmarks
 
-# Numbers of FaceMesh points along each outline; first the person's right (the picture's left), then the left.
+# Indices of FaceMesh points along each outline; first the person's right side (the picture's left), then the left.
 EYES = (
     (33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246),
     (263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466),
@@ -43,13 +44,18 @@ MOUTH = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308, 415, 310, 311, 312, 1
 NOSE = (168, 122, 174, 198, 209, 49, 64, 98, 97, 2, 326, 327, 294, 279, 429, 420, 399, 351)
 
 
+_FRACTION_BITS = 4
+"""Of the fixed-point coordinates that OpenCV draws with."""
+
+
 @node("makeup.features")
 def features(photo: Image, landmarks: Landmarks, *, softness: Annotated[float, Field(ge=0, le=1)] = 0.02) -> Features:
-    """Where eyes, mouth, lips, lids, brows, nose and cheeks are.
+    """Masks of eyes, mouth, lips, lids, brows, nose and cheeks.
 
     Args:
-        photo: gives the size. landmarks: scheme "facemesh468".
-        softness: blur of the outlines, in inter-ocular distances; broad parts (cheeks, lids, nose) get a multiple.
+        photo: gives the size; its pixels are not read. landmarks: scheme "facemesh468".
+        softness: sigma of the Gaussian that blurs the outlines, in inter-ocular distances; broad parts (cheeks, lids,
+            nose) get a multiple of it.
 
     Raises:
         UsageError: the landmarks follow another scheme.
@@ -73,7 +79,7 @@ def features(photo: Image, landmarks: Landmarks, *, softness: Annotated[float, F
 
 
 class _Canvas:
-    """Draws soft polygons into the part of the picture that holds the face."""
+    """Draws soft polygons, each into its own bounding box."""
 
     def __init__(self, photo: Image, landmarks: Landmarks, softness: float) -> None:
         self.shape = (photo.height, photo.width)
@@ -84,9 +90,11 @@ class _Canvas:
     def drawn(
         self, outlines: tuple[tuple[int, ...], ...], blur: float, hull: bool = False, grow: float = 0
     ) -> FloatArray:
-        """Polygons through numbered points (or their convex hulls), blurred by a multiple of the softness.
+        """The union of polygons through the points of these indices, or of their convex hulls, blurred.
 
-        `grow`: width added all around, in inter-ocular distances.
+        Args:
+            blur: sigma of the Gaussian as a multiple of the softness.
+            grow: width of a dilation before the blur, in inter-ocular distances.
         """
         import cv2
 
@@ -100,20 +108,21 @@ class _Canvas:
                 continue
             rows, columns = box
             origin = np.array([columns.start, rows.start])
-            fixed: NDArray[Any] = np.round((corners - origin) * 16).astype(np.int32)
+            polygon: NDArray[Any] = np.round((corners - origin) * (1 << _FRACTION_BITS)).astype(np.int32)
             if hull:
-                fixed = cv2.convexHull(fixed)[:, 0]
+                polygon = cv2.convexHull(polygon)[:, 0]
             drawn = np.zeros((rows.stop - rows.start, columns.stop - columns.start), np.uint8)
-            cv2.fillPoly(drawn, [fixed], 255, cv2.LINE_AA, 4)
+            cv2.fillPoly(drawn, [polygon], 255, cv2.LINE_AA, _FRACTION_BITS)
             if grow > 0:
-                # Not `dilate`: its cost grows with the square of the width.
-                away = cv2.distanceTransform(255 - drawn, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-                drawn = np.where(away <= grow * self.unit, np.uint8(255), np.uint8(0))
+                # Dilation by the distance transform: the cost of `dilate` grows with the square of the width.
+                distance = cv2.distanceTransform(255 - drawn, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+                drawn = np.where(distance <= grow * self.unit, np.uint8(255), np.uint8(0))
             soft = blurred(drawn.astype(np.float32) / np.float32(255), sigma)
             mask[rows, columns] = np.maximum(mask[rows, columns], soft)
         return mask
 
-    def _box(self, corners: NDArray[np.float64], margin: float) -> tuple[slice, slice] | None:
+    def _box(self, corners: NDArray[np.float64], margin: float) -> Box | None:
+        """The part of the picture around the corners; None without a polygon, or outside of the picture."""
         if len(corners) < 3:
             return None
         height, width = self.shape

@@ -24,7 +24,12 @@ def keep(
     brows: Share = 0.0,
     elsewhere: Share = 0.0,
 ) -> Mask:
-    """How much of the input's fine detail stays: the mask that detail maps are blended by."""
+    """The mask that `makeup.detail` blends detail maps by: share of the input's fine detail, H x W, 0 to 1.
+
+    Args:
+        nose, lids, lips, brows: share in that part. around: in the skin around the lips. elsewhere: in all other skin.
+            Where parts overlap the largest share counts. In the openings of eyes and mouth it is 1.
+    """
     shares = (
         (features.nose, nose),
         (features.lids, lids),
@@ -35,4 +40,4 @@ def keep(
     mask = np.full_like(features.nose, elsewhere)
     for part, share in shares:
         mask = np.maximum(mask, part * np.float32(share))
-    return np.maximum(mask, np.maximum(features.eyes, features.mouth))
+    return np.maximum(mask, features.openings)

@@ -1,4 +1,4 @@
-"""Where there is skin that may be painted, or whose paint may be taken."""
+"""The skin that may be painted, or from which makeup may be taken."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ def skin(
     *,
     rim: Annotated[float, Field(ge=0, le=1)] = 0.25,
 ) -> Mask:
-    """The face label (with ears and neck), and all that is deep inside the mesh and no hair, whatever its color.
+    """The label face (with ears and neck), and everything deep inside the mesh that is not labelled hair.
 
-    A classifier that has learned what skin looks like takes a blue lip or a green stripe for something else. Eyes,
-    brows, nose and lips are part of a face; hair hangs in from its outline, so towards that the label decides, and
-    where the label says hair it is believed.
+    A classifier that has learnt the color of skin labels a blue lip or a green stripe as something else, so geometry
+    counts as well: eyes, brows, nose and lips always belong to a face, and so does what is deep inside the mesh. Hair
+    falls over the outline of the face, so near the outline the label alone decides.
 
     Args:
         labels: of a segmentation. surface, landmarks, features: of the same photo.
-        given: a user's mask, taken as it is.
-        rim: width of the mesh's rim in which the label alone decides, in inter-ocular distances; the prior rises over
-            the same width.
+        given: a user's mask, which is returned as it is.
+        rim: width of the mesh's rim in which the label alone decides, in inter-ocular distances. Inside of it the
+            weight of the geometry rises from 0 to 1 over the same width.
     """
     import cv2
 
@@ -42,5 +42,5 @@ def skin(
     depth = np.asarray(cv2.distanceTransform(covered, cv2.DIST_L2, 5), np.float32)
     deep: FloatArray = np.clip(depth / np.float32(max(rim * unit, 1.0)) - 1, 0, 1)
     parts = features.any_of("eyes", "mouth", "lips", "lids", "brows", "nose")
-    facial = np.maximum(deep, np.minimum(2 * parts, 1) * surface.coverage)
-    return np.asarray(np.maximum(labels.face, facial * (1 - labels.hair)), np.float32)
+    by_geometry = np.maximum(deep, np.minimum(2 * parts, 1) * surface.coverage)
+    return np.asarray(np.maximum(labels.face, by_geometry * (1 - labels.hair)), np.float32)

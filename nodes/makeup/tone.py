@@ -1,7 +1,7 @@
-"""How much of the reference's skin comes with its makeup: color by the albedo, lightness by the shading.
+"""How much of the reference's skin tone is transferred with its makeup: color in the albedo, lightness in the shading.
 
-Where shading is intensity, albedo has no lightness, and the light fitted to a dark face is a dim one. So the tone that
-a person's skin has is in two places, and both are moved by the same parameter.
+Where shading is intensity the albedo has no lightness, and the light estimated from a dark face is a dim one. So the
+tone of a skin is in two places, and one parameter changes both.
 """
 
 from __future__ import annotations
@@ -18,19 +18,29 @@ from graphface.nodes.types import Mask, Shading
 Tone = Annotated[float, Field(ge=0, le=1)]
 
 
-_LEAST_LIGHT = 0.02
+_LEAST_LIGHTNESS = 0.02
 
 
-_MOST_RATIO = 8.0
+_LARGEST_RATIO = 8.0
 
 
-def lightness(estimated: Shading, reference: Shading, mask: Mask) -> float:
-    """Mean shading of the reference over that of the input, within 1/8 and 8; 1 where there is nothing to compare."""
+def lightness_ratio(estimated: Shading, reference: Shading, mask: Mask) -> float:
+    """Mean shading of the reference over that of the input, each weighted by the mask; within 1/8 and 8.
+
+    Args:
+        estimated, reference: H x W or H x W x 3. mask: H x W; where it is empty the ratio is 1, with a warning.
+
+    >>> input_shading, reference_shading = (np.full((2, 2), v, np.float32) for v in (0.25, 0.5))
+    >>> lightness_ratio(input_shading, reference_shading, np.ones((2, 2), np.float32))
+    2.0
+    """
     total = float(mask.sum(dtype=np.float64))
     if total < 1e-6:
         warn("makeup: the face mask is empty; the lightness of the two skins is taken as equal")
         return 1.0
-    own, other = (
-        float(np.einsum("hw,hw->", channel_mean(v), mask, dtype=np.float64)) / total for v in (estimated, reference)
+    of_input, of_reference = (
+        float(np.einsum("hw,hw->", channel_mean(values), mask, dtype=np.float64)) / total
+        for values in (estimated, reference)
     )
-    return float(np.clip(max(other, _LEAST_LIGHT) / max(own, _LEAST_LIGHT), 1 / _MOST_RATIO, _MOST_RATIO))
+    ratio = max(of_reference, _LEAST_LIGHTNESS) / max(of_input, _LEAST_LIGHTNESS)
+    return float(np.clip(ratio, 1 / _LARGEST_RATIO, _LARGEST_RATIO))

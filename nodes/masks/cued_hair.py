@@ -1,4 +1,4 @@
-"""Hair by labels found elsewhere."""
+"""Hair from labels that were found before."""
 
 from __future__ import annotations
 
@@ -9,5 +9,5 @@ from graphface.nodes.types import HeadMasks, Segmentation
 
 @node("masks.cued_hair")
 def cued_hair(labels: Segmentation, masks: HeadMasks) -> Hair:
-    """What is hair by labels found elsewhere, in place of the detector `masks.hair`."""
+    """The hair of a segmentation, in place of the detector `masks.hair`; the mask is what lies in the normal mask."""
     return Hair(labels.hair, labels.hair * masks.normal)

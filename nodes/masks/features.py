@@ -1,4 +1,4 @@
-"""What a pixel is told by: its color, and the texture around it."""
+"""Features of pixels: their color, and the texture around them."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ FeatureSet = Literal["color", "color+mr8"]
 
 
 TEXTURE_GAIN = 8.0
-"""Responses are this many times amplified, then compressed by asinh: a strand counts, a hard edge not for ever more."""
+"""Filter responses are amplified by this and compressed by asinh: strands count, and hard edges do not dominate."""
 
 
 TEXTURE_WEIGHTS = (0.02, 0.02, 0.01, 0.01, 0.005, 0.005, 0.005, 0.005)
-"""Scales of the eight responses beside color: the wider a filter reaches, the less it says about this very pixel.
+"""Scales of the eight responses beside color. The wider a filter, the less it says about the pixel itself.
 
-Mixtures have a least width, so a small scale blurs small differences. Just beside a head wide filters see the head, and
-with large weights those pixels looked like anything but the flat backdrop that they are.
+Mixtures have a least standard deviation, so a small scale blurs small differences. Wide filters next to a head respond
+to the head. With large weights those pixels looked unlike the flat backdrop that they show.
 """
 
 
 @dataclass(frozen=True)
 class PixelFeatures:
-    """Features `values`, float32 h x w x D, of the part of a photo that `window` names."""
+    """Features `values`, float32 h x w x D, of the `window` of a photo."""
 
     window: Window
     values: FloatArray
@@ -50,23 +50,23 @@ def pixel_features(
     """Color and texture around a face.
 
     Args:
-        photo: of either encoding; its values are compared as they are.
-        landmarks: where to look.
-        resolution: pixels per inter-ocular distance that features are computed at; small faces keep their own size.
+        photo: of either encoding; its values are used as they are.
+        landmarks: place the window.
+        resolution: pixels per inter-ocular distance at which features are computed; small faces keep their own size.
         space, kind, bank: see `features`.
     """
     window = window_about(landmarks, photo.pixels.shape, resolution)
-    return PixelFeatures(window, features(window.shrunk(photo.pixels), space=space, kind=kind, bank=bank))
+    return PixelFeatures(window, features(window.downsampled(photo.pixels), space=space, kind=kind, bank=bank))
 
 
 def features(
     pixels: FloatArray, *, space: ColorSpace = "lab", kind: FeatureSet = "color+mr8", bank: Bank = "pyramid"
 ) -> FloatArray:
-    """One vector a pixel, float32 H x W x 3 or H x W x 11, of comparable ranges.
+    """One vector per pixel, float32 H x W x 3 or H x W x 11, of comparable ranges.
 
     Args:
-        pixels: H x W x 3 sRGB-encoded; values beyond [0, 1] are clipped, non-finite ones become 0.
-        space: where colors are compared. kind: color alone, or with the MR8 responses of the lightness.
+        pixels: H x W x 3 sRGB-encoded; values beyond [0, 1] are clipped, NaN becomes 0.
+        space: color space. kind: color alone, or with the MR8 responses of the lightness.
         bank: see `masks.texture.mr8`.
     """
     import cv2

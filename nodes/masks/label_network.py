@@ -1,9 +1,9 @@
-"""The label network: a small U-Net that says of every pixel about a head what it is, in plain NumPy.
+"""The label network: a small U-Net that labels the pixels about a head, in plain NumPy.
 
-It works on cells of two by two pixels and tells all four apart at the end, which is four times as cheap as working on
-pixels. Each level down halves the picture: two convolutions, means of two by two; each level up adds what the level
-below saw, and convolves once more. Normalization was folded into the weights when they were learned
-(`graphface models labels`).
+It works on cells of 2 x 2 pixels and gives four labels for each cell at the end (pixel shuffle), which costs a quarter
+of working on pixels. On the way down each level halves the picture: average pooling, then two convolutions. On the way
+up each level adds the upsampled result of the level below, and convolves once. Batch normalization was folded into the
+weights after training (`graphface models labels`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ WIDTHS = (16, 32, 48, 64)
 
 
 MULTIPLICATIONS = 1 << 17
-"""In one matrix product, as in `masks.mixture`: OpenBLAS starts no threads of its own for less."""
+"""In one matrix product, as in `masks.mixture`: below this OpenBLAS starts no threads of its own."""
 
 
 Weights = Mapping[str, NDArray[np.float32]]
@@ -30,24 +30,24 @@ def label_scores(cells: FloatArray, weights: Weights) -> FloatArray:
     """Scores (logits) of face, hair and background, float32 2h x 2w x 3.
 
     Args:
-        cells: h x w x C as of `masks.network_input`, h and w multiples of 8.
+        cells: h x w x C from `masks.network_input`, h and w multiples of 8.
     """
     levels = []
     for level in range(len(WIDTHS)):
         for step in range(2):
-            place = f"down.{level}.{step}"
-            cells = rectified(convolved(_halved(cells) if level and not step else cells, weights, place))
+            layer = f"down.{level}.{step}"
+            cells = relu(convolved(_average_pooled(cells) if level and not step else cells, weights, layer))
         levels.append(cells)
     for level in reversed(range(len(WIDTHS) - 1)):
-        wider = convolved(cells, weights, f"across.{level}")
-        cells = levels[level] + wider.repeat(2, axis=0).repeat(2, axis=1)
-        cells = rectified(convolved(cells, weights, f"up.{level}"))
-    return _shuffled(convolved(cells, weights, "out"))
+        below = convolved(cells, weights, f"across.{level}")
+        cells = levels[level] + below.repeat(2, axis=0).repeat(2, axis=1)
+        cells = relu(convolved(cells, weights, f"up.{level}"))
+    return _pixel_shuffled(convolved(cells, weights, "out"))
 
 
-def convolved(cells: FloatArray, weights: Weights, place: str) -> FloatArray:
-    """h x w x C convolved with kernels k x k x C x D, plus their bias; beyond the picture everything is 0."""
-    kernel, bias = weights[f"{place}.weight"], weights[f"{place}.bias"]
+def convolved(cells: FloatArray, weights: Weights, layer: str) -> FloatArray:
+    """h x w x C convolved with a layer's kernels k x k x C x D, plus its bias; zero padding."""
+    kernel, bias = weights[f"{layer}.weight"], weights[f"{layer}.bias"]
     size, _, inputs, outputs = kernel.shape
     height, width = cells.shape[:2]
     if size == 1:
@@ -65,8 +65,8 @@ def convolved(cells: FloatArray, weights: Weights, place: str) -> FloatArray:
     return found.reshape(height, width, outputs)
 
 
-def rectified(values: FloatArray) -> FloatArray:
-    """What is below 0 is 0."""
+def relu(values: FloatArray) -> FloatArray:
+    """Values below 0 become 0, in place."""
     return np.maximum(values, 0, out=values)
 
 
@@ -78,14 +78,14 @@ def _product(rows: FloatArray, matrix: FloatArray) -> FloatArray:
     return found
 
 
-def _halved(cells: FloatArray) -> FloatArray:
-    """Means of two by two."""
+def _average_pooled(cells: FloatArray) -> FloatArray:
+    """Means of 2 x 2 cells."""
     rows = cells[::2] + cells[1::2]
     return np.asarray((rows[:, ::2] + rows[:, 1::2]) * np.float32(0.25))
 
 
-def _shuffled(cells: FloatArray) -> FloatArray:
-    """h x w x 4C to 2h x 2w x C; of C's four, in that order: upper left, upper right, lower left, lower right."""
+def _pixel_shuffled(cells: FloatArray) -> FloatArray:
+    """h x w x 4C to 2h x 2w x C. Each channel's four values are upper left, upper right, lower left, lower right."""
     height, width, channels = cells.shape
-    apart = cells.reshape(height, width, channels // 4, 2, 2).transpose(0, 3, 1, 4, 2)
-    return np.ascontiguousarray(apart.reshape(2 * height, 2 * width, channels // 4))
+    pixels = cells.reshape(height, width, channels // 4, 2, 2).transpose(0, 3, 1, 4, 2)
+    return np.ascontiguousarray(pixels.reshape(2 * height, 2 * width, channels // 4))

@@ -1,4 +1,4 @@
-"""Weights of the label network on disk: NAME.safetensors, and a card NAME.json beside it that says what taught them."""
+"""Weights of the label network on disk: NAME.safetensors, and a card NAME.json that names the training data."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ FORMAT = "graphface-labels-1"
 
 
 SHIPPED = Path(__file__).with_name("labels.safetensors")
-"""A constant, so that its content counts in the fingerprint of what uses it."""
+"""A constant of the module, so that its content is part of the fingerprint of the code that uses it."""
 
 
 @dataclass(frozen=True)
 class LabelWeights:
-    """What a label network has learned; as a graph input, a file that `graphface models labels` wrote."""
+    """Weights of a label network by layer; as a graph input, a file that `graphface models labels` wrote."""
 
     arrays: Weights
 
@@ -58,7 +58,7 @@ def read_weights(path: Path) -> Weights:
     if not np.array_equal(tensors.get("across.0.weight", np.zeros(0)).shape, (1, 1, WIDTHS[1], WIDTHS[0])):
         raise UnreadableFile(path, f"not the weights of a label network of widths {WIDTHS}")
     if tensors["down.0.0.weight"].shape[2] != CHANNELS:
-        raise UnreadableFile(path, f"its network is not shown {CHANNELS} channels")
+        raise UnreadableFile(path, f"its network does not take {CHANNELS} input channels")
     return {name: values.astype(np.float32) for name, values in tensors.items()}
 
 

@@ -1,8 +1,8 @@
 """Gaussian mixtures of weighted samples: one small classifier for each label of each picture.
 
-Written out here rather than taken from scikit-learn for three reasons: samples carry weights (how sure we are that a
-pixel is hair), the start is not random (a photo with a little noise must give nearly the same classifier), and
-importing scikit-learn takes longer than segmenting. Every covariance has a floor, so a flat color is a mixture too.
+This is not scikit-learn's, for three reasons: samples carry weights (how sure we are that a pixel is hair); the
+initialization is not random (a photo with a little noise must give nearly the same classifier); importing scikit-learn
+takes longer than segmenting. Every covariance has a floor, so a flat color is a mixture too.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ Samples = NDArray[np.floating[Any]]
 
 
 MULTIPLICATIONS = 1 << 17
-"""In one matrix product. Above twice this OpenBLAS starts threads; beside the engine's own they wait for each other,
-and with all cores busy that was measured to take fifty times as long."""
+"""In one matrix product. Above twice this number OpenBLAS starts threads. They and the engine's own threads wait for
+each other; with all cores busy that was measured to take fifty times as long."""
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,10 @@ class Mixture:
         return _log_sum_exp(self.joint(samples))
 
     def joint(self, samples: Samples) -> NDArray[np.float32]:
-        """log of weight times density, float32 (n, K).
+        """log of weight times density of each Gaussian, float32 (n, K).
 
-        All Gaussians in one product: with W W^T = inverse covariance, a distance is |W^T x - W^T mean|^2.
+        All Gaussians are evaluated in one product: with W W^T = inverse covariance, the Mahalanobis distance is
+        |W^T x - W^T mean|^2.
         """
         count, dimension = self.means.shape
         lower = np.linalg.cholesky(self.covariances)  # floored, so small and well-conditioned
@@ -66,11 +67,12 @@ def fit_mixture(
     rounds: int = 6,
     floor: float = 0.02,
 ) -> Mixture | None:
-    """A mixture of Gaussians by expectation maximization: the largest power of two within `components`, or fewer.
+    """A mixture of Gaussians by expectation maximization.
 
     Args:
         samples: (n, D); a few thousand are enough. weights: (n,), at least 0; None: all 1.
-        rounds: EM steps.
+        components: at most this many Gaussians; the largest power of two within it, fewer for few samples.
+        rounds: steps of expectation maximization.
         floor: least standard deviation in any direction.
 
     Returns:
@@ -90,16 +92,18 @@ def fit_mixture(
     return mixture
 
 
-def widened(mixture: Mixture, room: float) -> Mixture:
-    """The mixture with its first feature spread by a further standard deviation `room`."""
+def with_lightness_spread(mixture: Mixture, spread: float) -> Mixture:
+    """The mixture with a further standard deviation `spread` along the first feature, which is lightness."""
     covariances = mixture.covariances.copy()
-    covariances[:, 0, 0] += room**2
+    covariances[:, 0, 0] += spread**2
     return Mixture(mixture.weights, mixture.means, covariances)
 
 
 def _split(samples: Array, weights: Array, components: int, floor: float) -> Array:
-    """A first assignment (n, K) of 0 and 1: every group is cut at its mean, across its widest direction, again and
-    again. Nothing is random, and no choice between groups can flip with a little noise."""
+    """A first assignment (n, K) of 0 and 1. Every group is cut at its mean across its first principal axis, repeatedly.
+
+    Nothing is random, and a little noise cannot flip a choice between groups.
+    """
     group = np.zeros(len(samples), np.intp)
     count = 1
     while 2 * count <= components:
@@ -114,7 +118,7 @@ def _split(samples: Array, weights: Array, components: int, floor: float) -> Arr
 
 
 def _principal(samples: Array, weights: Array) -> tuple[float, Array]:
-    """Greatest variance, and its direction."""
+    """The largest variance in any direction, and that direction."""
     total = float(weights.sum())
     if len(samples) < 2 or total <= 0:
         return 0.0, np.zeros(samples.shape[1])
@@ -124,7 +128,7 @@ def _principal(samples: Array, weights: Array) -> tuple[float, Array]:
 
 
 def _maximize(samples: Array, weights: Array, shares: Array, floor: float) -> Mixture:
-    """The Gaussians that fit samples best, given how much of each sample (n, K) every Gaussian answers for."""
+    """The Gaussians of maximal likelihood, given the responsibilities `shares` (n, K) of each for every sample."""
     shares = shares * weights[:, None]
     mass = np.maximum(shares.sum(axis=0), 1e-9)
     means = shares.T @ samples / mass[:, None]

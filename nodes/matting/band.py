@@ -1,4 +1,4 @@
-"""Where alphas are unknown: a band along the borders between labels, wide where hair meets background."""
+"""The band of unknown alphas along the borders between labels. It is wide where hair meets background."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from graphface.nodes.types import FloatArray, Segmentation
 
 @dataclass(frozen=True)
 class Band:
-    """The rectangle `part` of a photo that holds all `unknown` pixels (bool, of its size) and two more at each side."""
+    """The rectangle `part` of a photo that holds all `unknown` pixels, with a margin of two; `unknown` is bool, of its
+    size."""
 
     part: tuple[slice, slice]
     unknown: NDArray[np.bool_]
@@ -22,36 +23,36 @@ class Band:
         return not self.unknown.any()
 
 
-def band_of(labels: Segmentation, unit: float, *, width: float, strands: float) -> Band:
+def band_of(labels: Segmentation, unit: float, *, width: float, hair_width: float) -> Band:
     """Pixels near a border of labels.
 
     Args:
         unit: the inter-ocular distance in pixels. width: of the band to each side of a border, in that unit.
-        strands: the same where one of the labels is hair and the other background.
+        hair_width: the same where one of the labels is hair and the other background.
     """
     face, hair, background = (labels.face, labels.hair, labels.background)
-    likeliest = np.stack([face, hair, background]).argmax(axis=0)
-    ranges = [_near(likeliest == k, max(width * unit, 1.0)) for k in range(3)]
-    unknown = (ranges[0] & ranges[1]) | (ranges[0] & ranges[2])
-    reach = max(strands * unit, 1.0)
-    unknown |= _near(likeliest == 1, reach) & _near(likeliest == 2, reach)
+    label = np.stack([face, hair, background]).argmax(axis=0)
+    near_face, near_hair, near_background = (_near(label == k, max(width * unit, 1.0)) for k in range(3))
+    unknown = near_face & (near_hair | near_background)
+    reach = max(hair_width * unit, 1.0)
+    unknown |= _near(label == 1, reach) & _near(label == 2, reach)
     return _cropped(unknown)
 
 
-def likeliest_alphas(labels: Segmentation, part: tuple[slice, slice]) -> FloatArray:
-    """Face and hair as 0 or 1 by the likeliest label, h x w x 2."""
+def hard_alphas(labels: Segmentation, part: tuple[slice, slice]) -> FloatArray:
+    """Face and hair as 0 or 1 by the most likely label, h x w x 2."""
     stacked = np.stack([labels.face[part], labels.hair[part], labels.background[part]])
     return np.asarray(stacked.argmax(axis=0)[..., None] == (0, 1), np.float32)
 
 
 def soft_alphas(labels: Segmentation, band: Band) -> FloatArray:
-    """Face and hair of the unknown pixels as the labels have them, (n, 2) in [0, 1]."""
+    """Face and hair of the unknown pixels as in the labels, (n, 2) in [0, 1]."""
     soft = np.stack([labels.face[band.part], labels.hair[band.part]], axis=2)[band.unknown]
     return np.clip(np.nan_to_num(soft), 0, 1)
 
 
-def merged(labels: Segmentation, band: Band, alphas: FloatArray) -> Segmentation:
-    """Certain labels outside of the band, alphas of face and hair (n, 2) in it, all within [0, 1] and summing to 1."""
+def with_alphas(labels: Segmentation, band: Band, alphas: FloatArray) -> Segmentation:
+    """The most likely labels outside the band and alphas of face and hair (n, 2) inside it; they sum to 1."""
     stacked = np.stack([labels.face, labels.hair, labels.background], axis=2)
     stacked = np.asarray(stacked.argmax(axis=2)[..., None] == (0, 1, 2), np.float32)
     inside = np.clip(np.concatenate([alphas, 1 - alphas.sum(axis=1, keepdims=True)], axis=1), 0, 1)

@@ -1,8 +1,8 @@
-"""What alphas look like from afar: in every small block of pixels, a linear function of the color.
+"""The coarse space: functions that are linear in the color within every small block of pixels.
 
-That is the assumption the matting Laplacian is made of, so these functions are the ones it hardly resists: exactly what
-conjugate gradients take long to find. There are few of them, and among them the best answer is found directly (see
-`graphface.nodes.matting.two_level`).
+The matting Laplacian assumes that alpha is linear in the color of each small window, so these functions are nearly in
+its null space, which conjugate gradients resolve slowly. There are few of them: the best solution among them is
+computed directly (see `graphface.nodes.matting.two_level`).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 BLOCK = 6
-"""Side of a block, pixels. Smaller ones save steps and cost more each."""
+"""Side of a block, pixels. Smaller blocks need fewer steps, and each step costs more."""
 
 
 def color_lines(colors: NDArray[np.floating], unknown: NDArray[np.bool_], block: int = BLOCK) -> csr_matrix:
@@ -36,7 +36,7 @@ def color_lines(colors: NDArray[np.floating], unknown: NDArray[np.bool_], block:
     share = 1 / np.maximum(np.bincount(member), 1)
     functions = np.ones((len(y), 4))
     for c in range(3):
-        # Colors less the block's mean: what is left is at right angles to the constant.
+        # Colors minus the block's mean are orthogonal to the constant.
         functions[:, c + 1] = inside[:, c] - (share * np.bincount(member, inside[:, c]))[member]
     column = 4 * member[:, None] + np.arange(4, dtype=np.int32)
     starts = np.arange(0, 4 * len(y) + 1, 4, dtype=np.int32)

@@ -1,7 +1,7 @@
-"""Soft edges by the guided filter: inside every small window alpha is a linear function of the color.
+"""Soft edges by the guided filter: within every small window alpha is a linear function of the color.
 
-He and Sun, Fast Guided Filter, 2015: the linear functions are found on a small picture, where they cost little, and
-applied to the large one, where they find its edges.
+He and Sun, Fast Guided Filter, 2015: the coefficients of the linear functions are computed on a small copy of the
+picture, and applied to the colors of the large one, whose edges they follow.
 """
 
 from __future__ import annotations
@@ -27,43 +27,48 @@ def guided(
     ridge: Annotated[float, Field(ge=1e-8, le=1)] = 1e-3,
     resolution: Annotated[int, Field(ge=8, le=1024)] = 80,
 ) -> Segmentation:
-    """The labels, drawn to the edges of the photo.
+    """The labels, aligned with the edges of the photo.
 
     Args:
-        photo: the guide. labels: soft labels; where one is certain over a window it stays so.
+        photo: the guide. labels: soft labels; one that is certain over a whole window stays so.
         radius: half the window's side, in inter-ocular distances.
-        ridge: variance of color below which there is no edge. A tenth of it draws the noise of a photo into alpha,
-            and is no nearer to the truth (hair on path-traced heads: overlap 0.956 at 1e-4, 0.958 at 1e-3).
-        resolution: pixels per inter-ocular distance that the linear functions are found at.
+        ridge: He's epsilon, a variance of color; less varied windows are smoothed. A tenth of it lets the noise of a
+            photo into alpha, and is no nearer to the truth (hair on path-traced heads: overlap 0.956 at 1e-4, 0.958 at
+            1e-3).
+        resolution: pixels per inter-ocular distance of the small copy.
     """
     unit = max(landmarks.interocular, 1e-3)
-    part = _busy(labels, round(2 * radius * unit) + 2)
+    part = _foreground(labels, round(2 * radius * unit) + 2)
     if part is None:
         return labels
     guide = np.clip(np.nan_to_num(photo.pixels[part]), 0, 1).astype(np.float32, copy=False)
     alphas = np.stack([labels.face[part], labels.hair[part]], axis=2)
     copy = face_scale(landmarks, guide.shape, resolution)
     side = 2 * max(1, round(radius * copy.interocular)) + 1
-    functions = _linear_functions(copy.down(guide), copy.down(alphas).reshape(*copy.size, 2), side, ridge)
-    drawn = np.clip(_applied(functions, guide, copy), 0, 1)
-    drawn /= np.maximum(drawn[0] + drawn[1], 1)
+    coefficients = _coefficients(copy.down(guide), copy.down(alphas).reshape(*copy.size, 2), side, ridge)
+    filtered = np.clip(_applied(coefficients, guide, copy), 0, 1)
+    filtered /= np.maximum(filtered[0] + filtered[1], 1)
     face, hair = labels.face.copy(), labels.hair.copy()
-    face[part], hair[part] = drawn
+    face[part], hair[part] = filtered
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
 
 
-def _busy(labels: Segmentation, margin: int) -> tuple[slice, slice] | None:
-    """The rectangle outside of which everything is background, None where there is nothing else."""
-    something = labels.background < 1 - 1e-4
-    rows, columns = np.flatnonzero(something.any(axis=1)), np.flatnonzero(something.any(axis=0))
+def _foreground(labels: Segmentation, margin: int) -> tuple[slice, slice] | None:
+    """The rectangle outside which everything is background, with a margin; None where there is nothing else."""
+    foreground = labels.background < 1 - 1e-4
+    rows, columns = np.flatnonzero(foreground.any(axis=1)), np.flatnonzero(foreground.any(axis=0))
     if not len(rows):
         return None
     spans = [slice(max(0, int(i[0]) - margin), int(i[-1]) + 1 + margin) for i in (rows, columns)]
     return spans[0], spans[1]
 
 
-def _linear_functions(guide: FloatArray, alphas: FloatArray, side: int, ridge: float) -> FloatArray:
-    """For each pixel and alpha the function color . a + b, averaged over the windows it lies in: h x w x 2 x 4."""
+def _coefficients(guide: FloatArray, alphas: FloatArray, side: int, ridge: float) -> FloatArray:
+    """a and b of alpha = a . color + b, for face and hair: h x w x 8.
+
+    Each window's a = (covariance of colors + ridge)^-1 (covariance of colors and alpha) and b = mean alpha - a . mean
+    color (He's equations 5 and 6); a pixel's are the means over the windows it lies in.
+    """
     mean_guide, mean_alphas = _boxed(guide, side), _boxed(alphas, side)
     products = _boxed((guide[..., :, None] * guide[..., None, :]).reshape(*guide.shape[:2], 9), side)
     covariance = products.reshape(*guide.shape[:2], 3, 3) - mean_guide[..., :, None] * mean_guide[..., None, :]
@@ -72,12 +77,12 @@ def _linear_functions(guide: FloatArray, alphas: FloatArray, side: int, ridge: f
     crossed = crossed.reshape(*guide.shape[:2], 3, 2) - mean_guide[..., :, None] * mean_alphas[..., None, :]
     slopes = _solved(covariance, crossed)
     offsets = mean_alphas - np.einsum("hwcl,hwc->hwl", slopes, mean_guide)
-    functions = np.concatenate([np.moveaxis(slopes, 3, 2), offsets[..., None]], axis=3)
-    return _boxed(functions.reshape(*guide.shape[:2], 8), side)
+    coefficients = np.concatenate([np.moveaxis(slopes, 3, 2), offsets[..., None]], axis=3)
+    return _boxed(coefficients.reshape(*guide.shape[:2], 8), side)
 
 
 def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
-    """Symmetric positive 3 x 3 systems at every pixel, by cofactors in float64."""
+    """Solutions of a symmetric positive definite 3 x 3 system at every pixel, by cofactors in float64."""
     m = np.moveaxis(matrices.astype(np.float64), (2, 3), (0, 1))
     cofactors = np.empty_like(m)
     for i in range(3):
@@ -89,9 +94,9 @@ def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
     return np.asarray(solved / np.maximum(determinant, 1e-30)[..., None, None], np.float32)
 
 
-def _applied(functions: FloatArray, guide: FloatArray, copy: FaceScale) -> FloatArray:
-    """The functions enlarged to the guide and applied to its colors: 2 x H x W."""
-    planes = [copy.up(plane) for plane in np.ascontiguousarray(np.moveaxis(functions, 2, 0))]
+def _applied(coefficients: FloatArray, guide: FloatArray, copy: FaceScale) -> FloatArray:
+    """a . color + b for face and hair, with the coefficients upsampled to the guide: 2 x H x W."""
+    planes = [copy.up(plane) for plane in np.ascontiguousarray(np.moveaxis(coefficients, 2, 0))]
     channels = [np.ascontiguousarray(guide[..., c]) for c in range(3)]
     for k in range(2):
         for c in range(3):

@@ -1,4 +1,4 @@
-"""No matting: labels as soft as the classifiers left them."""
+"""No matting: the soft labels of the classifiers."""
 
 from __future__ import annotations
 

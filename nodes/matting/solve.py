@@ -1,4 +1,4 @@
-"""Alphas from a sparse symmetric system: conjugate gradients that always come back with an answer."""
+"""Alphas from a sparse symmetric system, by conjugate gradients with a fallback."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from graphface.nodes.matting.two_level import TwoLevel, Vector
 from graphface.nodes.types import FloatArray
 
 STEPS = 500
-"""Most steps of conjugate gradients."""
+"""Largest number of steps of conjugate gradients."""
 
 
 def solve_alphas(
@@ -21,52 +21,53 @@ def solve_alphas(
     """The x that solves system x = right, float32 (n, columns of `right`).
 
     Args:
-        system: CSR (n, n), symmetric, with a positive diagonal. guess: (n, k) in [0, 1], where the solve starts.
-        coarse: sparse (n, m), functions that the system hardly resists.
+        system: CSR (n, n), symmetric, with a positive diagonal. guess: (n, k) in [0, 1], where the iteration starts.
+        coarse: sparse (n, m), functions nearly in the system's null space (see `two_level`).
         tolerance: relative residual.
 
-    Falls back, with a warning, on the last iterate where the solve does not converge, and on the guess where it is not
-    finite.
+    Returns:
+        The last iterate, with a warning, where the iteration does not converge; the guess, with a warning, where the
+        solution is not finite.
     """
-    begun = guess.astype(np.float64)
-    if not len(begun):
-        return begun.astype(np.float32)
+    initial = guess.astype(np.float64)
+    if not len(initial):
+        return initial.astype(np.float32)
     system.sum_duplicates()
     inverse = TwoLevel(system, coarse)
-    alphas = np.empty_like(begun)
-    for k in range(begun.shape[1]):
-        first = np.ascontiguousarray(begun[:, k])
+    alphas = np.empty_like(initial)
+    for k in range(initial.shape[1]):
+        first = np.ascontiguousarray(initial[:, k])
         x, converged = _conjugate_gradients(system, right[:, k], first, inverse, tolerance)
         if not converged:
-            warn(f"matting: conjugate gradients stopped short of {tolerance:g}; alphas are taken as they are")
+            warn(f"matting: conjugate gradients did not reach {tolerance:g}; the last iterate is used")
         if not np.isfinite(x).all():
-            warn("matting: the solve is not finite; the labels' own softness is taken")
+            warn("matting: the solution is not finite; the soft labels are used")
             x = first
         alphas[:, k] = x
     return alphas.astype(np.float32)
 
 
 def _conjugate_gradients(
-    system: Any, target: Vector, begun: Vector, inverse: TwoLevel, tolerance: float
+    system: Any, target: Vector, initial: Vector, inverse: TwoLevel, tolerance: float
 ) -> tuple[Vector, bool]:
-    """The solution from `begun` on, and whether it reached the tolerance.
+    """The solution, iterated from `initial`, and whether it reached the tolerance.
 
-    Inner products are einsum's: those of BLAS wake its threads, which costs more than it saves at these sizes.
+    Inner products use einsum: BLAS would wake its threads, which costs more than it saves at these sizes.
     """
-    residual = target - system @ begun
+    residual = target - system @ initial
     least = max(tolerance**2 * max(_dot(target, target), _dot(residual, residual)), 1e-24)
     correction, image = inverse.start(residual)
-    x, residual = begun + correction, residual - image
-    direction, along = np.zeros_like(x), 1.0
+    x, residual = initial + correction, residual - image
+    direction, previous = np.zeros_like(x), 1.0
     for _ in range(STEPS):
-        left = _dot(residual, residual)
-        if not left > least:  # reached, or no longer a number
-            return x, left <= least
-        better = inverse(residual)
-        slope = _dot(residual, better)
-        direction *= slope / along
-        direction += better
-        along = slope if abs(slope) > 1e-300 else 1e-300
+        squared = _dot(residual, residual)
+        if not squared > least:  # reached, or NaN
+            return x, squared <= least
+        preconditioned = inverse(residual)
+        slope = _dot(residual, preconditioned)
+        direction *= slope / previous
+        direction += preconditioned
+        previous = slope if abs(slope) > 1e-300 else 1e-300
         image = system @ direction
         step = slope / max(_dot(direction, image), 1e-300)
         x += step * direction

@@ -1,13 +1,13 @@
-"""A preconditioner in two levels: a sweep over the pixels for what changes fast, a small direct solve for the rest.
+"""A two-level preconditioner: a Gauss-Seidel sweep for high frequencies, a small direct solve for low ones.
 
 Tang, Nabben, Vuik and Erlangga, Comparison of two-level preconditioners derived from deflation, domain decomposition
-and multigrid methods, J. Sci. Comput. 2009; this is their A-DEF2. With the columns of Z the functions that the matrix A
-hardly resists, E = Z^T A Z and M a symmetric Gauss-Seidel sweep,
+and multigrid methods, J. Sci. Comput. 2009; this is their A-DEF2. With Z a basis of functions nearly in the null space
+of the matrix A, E = Z^T A Z and M a symmetric Gauss-Seidel sweep,
 
     y = M^-1 r,    z = y + Z E^-1 (Z^T r - (A Z)^T y)
 
-Incomplete Cholesky factors cost ten times the sweep to make, can fail to exist, and without the second level take four
-times the steps. The sweep needs a positive diagonal only; it is run as PyMatting's compiled substitution.
+Incomplete Cholesky factors cost ten times as much to compute, may not exist, and without the second level need four
+times the steps. The sweep needs only a positive diagonal; PyMatting's compiled substitution runs it.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ Solver = Callable[[Vector], Vector]
 
 
 RIDGE = 1e-9
-"""Of the small system, relative to its diagonal: colors of a block may depend on each other."""
+"""Added to the small system, relative to its diagonal: the colors of a block may be linearly dependent."""
 
 
 class TwoLevel:
     """An approximate inverse of `system`, sparse (n, n), symmetric, with a positive diagonal and sorted rows.
 
     Args:
-        coarse: Z, sparse (n, m); without it the sweep alone.
+        coarse: Z, sparse (n, m); None: the sweep alone.
     """
 
     def __init__(self, system: Any, coarse: Any | None = None) -> None:
@@ -47,7 +47,7 @@ class TwoLevel:
             self._solve = _factored((self._down @ self._image).tocsc())
 
     def start(self, residual: Vector) -> tuple[Vector, Vector]:
-        """The best correction among the coarse functions, and A times it: the method has to start there."""
+        """The best correction in the coarse space, and A times it. A-DEF2 has to start from it."""
         if self._solve is None:
             return np.zeros_like(residual), np.zeros_like(residual)
         found = self._solve(self._down @ residual)
@@ -61,7 +61,7 @@ class TwoLevel:
 
 
 def _gauss_seidel(system: Any) -> Solver:
-    """The inverse of (D + U^T) D^-1 (D + U), D the diagonal of the system and U what lies above it."""
+    """The inverse of (D + U^T) D^-1 (D + U), D the diagonal of the system and U the part above it."""
     from pymatting.preconditioner.ichol import CholeskyDecomposition
 
     row = np.repeat(np.arange(system.shape[0], dtype=system.indices.dtype), np.diff(system.indptr))
@@ -85,9 +85,9 @@ def _factored(small: Any) -> Solver | None:
     floor = max(1e-12 * float(diagonal.max(initial=0.0)), 1e-30)
     regular = (small + diags(RIDGE * diagonal + floor)).tocsc()
     try:
-        # Positive definite: the order that keeps the factors small needs no pivots.
+        # The system is positive definite, so it needs no pivoting and can be ordered for small factors.
         factors = splu(regular, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     except (RuntimeError, MemoryError) as error:
-        warn(f"matting: the coarse system has no factors ({error}); the solve does without, which takes longer")
+        warn(f"matting: the coarse system cannot be factored ({error}); the solve goes on without it")
         return None
     return factors.solve  # type: ignore[no-any-return]

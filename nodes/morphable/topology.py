@@ -8,7 +8,7 @@ so that a symmetric face gets symmetric normals. Eyes and mouth are covered.
 `facemesh468.npz` beside this module is the result of
 
     points = np.stack([landmarks.points for landmarks in ...])   # 326 official headshots, one a person
-    save_topology(learn_topology(points * [1, -1, 1]), path)
+    np.savez_compressed(path, **vars(learn_topology(points * [1, -1, 1])))
 """
 
 from __future__ import annotations
@@ -75,11 +75,6 @@ def cylinder(shape: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
     low, high = unrolled.min(axis=0), unrolled.max(axis=0)
     coordinates: NDArray[np.float64] = (unrolled - low) / np.maximum(high - low, 1e-9)
     return coordinates
-
-
-def save_topology(topology: Topology, path: Path) -> None:
-    """Write what `facemesh_topology` reads."""
-    np.savez_compressed(path, triangles=topology.triangles, mirror=topology.mirror, mean=topology.mean)
 
 
 def _mean_shape(shapes: NDArray[np.float64], rounds: int = 5) -> NDArray[np.float64]:

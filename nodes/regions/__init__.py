@@ -1,2 +1,1 @@
-"""The regions of a face, `nine` of detail transfer, and the `features` that makeup leaves alone; both from one
-`atlas`."""
+"""The nine regions of a face between which detail is transferred: `nine` projects them from the `atlas`."""

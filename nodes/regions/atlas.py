@@ -1,13 +1,13 @@
-"""The nine regions of detail transfer, and the eyes, nose and mouth that makeup leaves alone.
+"""The nine regions as soft masks in coordinates of the mean face, and their projection to a photo.
 
-Regions are drawn once, on the mean face seen from the front, as soft masks in its own coordinates (`atlas`). The 468
-points say which place of the mean face every pixel of a photo shows, so one look-up projects all regions to any face,
-whatever its pose and expression. Left and right are the person's own.
+The masks are drawn once, on the mean face seen from the front. The 468 landmarks say which point of the mean face each
+pixel of a photo shows, so one look-up projects all regions to any face in any pose and expression. Left and right are
+the person's own.
 """
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -17,10 +17,11 @@ from graphface.nodes.face_scale import face_scale
 from graphface.nodes.morphable.facemesh import facemesh_mesh
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.rasterize import rasterized
-from graphface.nodes.types import FloatArray, Image, Landmarks, Mask, Regions
+from graphface.nodes.smoothstep import smoothstep
+from graphface.nodes.types import REGIONS, FloatArray, Image, Landmarks, Mask
 
 SIDE, REACH = 384, 1.2
-"""Pixels of the atlas' side, and the mean face's coordinate at its edge, inter-ocular distances."""
+"""Pixels of the atlas' side, and the mean face's coordinate at its edge, in inter-ocular distances."""
 
 
 RIGHT_BROW = (70, 63, 105, 66, 107, 55, 65, 52, 53, 46)
@@ -39,52 +40,58 @@ RIGHT_CHEEK = (117, 118, 101, 36, 206, 216, 192, 213, 147, 123)
 
 
 FOREHEAD = (54, 103, 67, 109, 10, 338, 297, 332, 284, 298, 333, 299, 337, 9, 108, 69, 104, 68)
-"""Contours by FaceMesh's own vertex indices (MediaPipe's published topology); left ones are their mirror images."""
+"""Contours by FaceMesh's vertex indices (MediaPipe's published topology); left ones are their mirror images."""
 
 
 _FINEST = 100.0
-"""Pixels per inter-ocular distance that regions are drawn with at the most; their edges are several of them wide."""
+"""Pixels per inter-ocular distance that regions are drawn with at most; their soft edges are several of them wide."""
 
 
-_GROW = {"brow": 0.03, "eye": 0.07, "nose": 0.02, "mouth": 0.06, "cheek": 0.08, "forehead": 0.03}
-"""How far a region reaches beyond its contour, inter-ocular distances: an eye has lids."""
+_GROWTH = {"brow": 0.03, "eye": 0.07, "nose": 0.02, "mouth": 0.06, "cheek": 0.08, "forehead": 0.03}
+"""How far a region reaches beyond its contour, in inter-ocular distances: an eye includes its lids."""
 
 
-NAMES = tuple(field.name for field in fields(Regions))
+_FRACTION_BITS = 4
+"""Of the fixed-point coordinates that OpenCV draws with."""
 
 
-def projected(drawn: list[FloatArray], photo: Image, landmarks: Landmarks) -> list[Mask]:
-    """Maps of the atlas on a photo, H x W each; 0 off the face. They are soft, so a small copy of the photo will do."""
+def projected(maps: list[FloatArray], photo: Image, landmarks: Landmarks) -> list[Mask]:
+    """Maps of the atlas projected to a photo, H x W each; 0 off the face.
+
+    They are soft, so they are drawn on a small copy of the photo and enlarged.
+    """
     copy = face_scale(landmarks, photo.pixels.shape, _FINEST)
     if copy.scale < 1:
         height, width = copy.size
-        sides = np.array([width / photo.width, height / photo.height, copy.scale], np.float32)
-        middle = np.array([0.5, 0.5, 0], np.float32)  # pixel centres are at whole numbers
-        landmarks = replace(landmarks, points=(landmarks.points + middle) * sides - middle)
+        scale = np.array([width / photo.width, height / photo.height, copy.scale], np.float32)
+        half = np.array([0.5, 0.5, 0], np.float32)  # integer coordinates are pixel centres
+        landmarks = replace(landmarks, points=(landmarks.points + half) * scale - half)
     x, y, covered = mean_face_coordinates(copy.size, landmarks)
-    return [copy.up(_looked_up(map_, x, y) * covered) for map_ in drawn]
+    return [copy.up(_sampled(values, x, y) * covered) for values in maps]
 
 
 def mean_face_coordinates(size: tuple[int, int], landmarks: Landmarks) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Which place of the mean face each pixel shows: x, y in inter-ocular distances, and 1 where any; H x W."""
+    """The point of the mean face at each pixel: x, y in inter-ocular distances, and the coverage; H x W each."""
     mesh = facemesh_mesh(landmarks)
     surface = rasterized(mesh, size, smoothing=0)
     corners = facemesh_topology().mean[mesh.triangles]
-    seen = np.maximum(surface.triangle, 0)
-    x, y = (sum(surface.barycentric[..., k] * corners[:, k, axis][seen] for k in range(3)) for axis in (0, 1))
+    triangle = np.maximum(surface.triangle, 0)
+    x, y = (sum(surface.barycentric[..., k] * corners[:, k, axis][triangle] for k in range(3)) for axis in (0, 1))
     return np.asarray(x, np.float32), np.asarray(y, np.float32), surface.coverage
 
 
 @cache
 def atlas(softness: float) -> dict[str, FloatArray]:
-    """The regions on the mean face seen from the front, SIDE x SIDE each; where two meet they share."""
+    """The regions on the mean face seen from the front, SIDE x SIDE each, read-only; where two overlap they share.
+
+    Args:
+        softness: width of the ramp at the edge, in inter-ocular distances.
+    """
     contours = _contours()
     drawn = {}
-    for name in NAMES:
-        inside = _drawn(contours[name])
-        depth = _signed_depth(inside) / SIDE * 2 * REACH + _GROW[name.rpartition("_")[2]]
-        t = np.clip(depth / softness + 0.5, 0, 1)
-        drawn[name] = (t * t * (3 - 2 * t)).astype(np.float32)
+    for name in REGIONS:
+        depth = _signed_distance(_filled(contours[name])) / SIDE * 2 * REACH + _GROWTH[name.rpartition("_")[2]]
+        drawn[name] = smoothstep(depth / softness + 0.5)
     total = np.maximum(sum(drawn.values()), 1)
     shared = {name: np.asarray(mask / total, np.float32) for name, mask in drawn.items()}
     for mask in shared.values():
@@ -93,24 +100,25 @@ def atlas(softness: float) -> dict[str, FloatArray]:
 
 
 def _contours() -> dict[str, NDArray[np.float32]]:
+    """Each region's polygon on the mean face, (n, 2)."""
     topology = facemesh_topology()
-    mirror = topology.mirror
-    own = {"right_brow": RIGHT_BROW, "right_eye": RIGHT_EYE, "right_cheek": RIGHT_CHEEK}
-    indices = {"nose": NOSE, "mouth": MOUTH, "forehead": FOREHEAD, **own}
-    indices |= {name.replace("right", "left"): tuple(mirror[list(points)]) for name, points in own.items()}
+    right = {"right_brow": RIGHT_BROW, "right_eye": RIGHT_EYE, "right_cheek": RIGHT_CHEEK}
+    indices = {"nose": NOSE, "mouth": MOUTH, "forehead": FOREHEAD, **right}
+    indices |= {name.replace("right", "left"): tuple(topology.mirror[list(points)]) for name, points in right.items()}
     return {name: topology.mean[list(points), :2] for name, points in indices.items()}
 
 
-def _drawn(contour: NDArray[np.float32]) -> NDArray[np.uint8]:
+def _filled(contour: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """The polygon drawn into the atlas: 1 inside, 0 outside."""
     import cv2
 
-    pixels = np.stack(_places(contour[:, 0], contour[:, 1]), axis=1)
+    pixels = np.stack(_atlas_pixels(contour[:, 0], contour[:, 1]), axis=1)
     canvas = np.zeros((SIDE, SIDE), np.uint8)
-    cv2.fillPoly(canvas, [np.round(pixels * 16).astype(np.int32)], 1, shift=4)
+    cv2.fillPoly(canvas, [np.round(pixels * (1 << _FRACTION_BITS)).astype(np.int32)], 1, shift=_FRACTION_BITS)
     return canvas
 
 
-def _signed_depth(inside: NDArray[np.uint8]) -> FloatArray:
+def _signed_distance(inside: NDArray[np.uint8]) -> FloatArray:
     """Distance to the contour in pixels, positive inside."""
     import cv2
 
@@ -118,14 +126,14 @@ def _signed_depth(inside: NDArray[np.uint8]) -> FloatArray:
     return np.asarray(within - beyond, np.float32)
 
 
-def _places(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Mean-face coordinates to the atlas' pixels."""
+def _atlas_pixels(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Column and row in the atlas of coordinates of the mean face."""
     half = np.float32((SIDE - 1) / 2)
     return half + x * (half / np.float32(REACH)), half - y * (half / np.float32(REACH))
 
 
-def _looked_up(drawn: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+def _sampled(values: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     import cv2
 
-    column, row = _places(x, y)
-    return np.asarray(cv2.remap(drawn, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT), np.float32)
+    column, row = _atlas_pixels(x, y)
+    return np.asarray(cv2.remap(values, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT), np.float32)

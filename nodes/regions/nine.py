@@ -7,22 +7,20 @@ from typing import Annotated
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.regions.atlas import NAMES, atlas, projected
-from graphface.nodes.types import Image, Landmarks, Regions
-
-Softness = Annotated[float, Field(ge=0.01, le=0.5)]
+from graphface.nodes.regions.atlas import atlas, projected
+from graphface.nodes.types import REGIONS, Image, Landmarks, Regions
 
 
 @node("regions.nine")
-def nine(photo: Image, landmarks: Landmarks, *, softness: Softness = 0.08) -> Regions:
-    """The nine regions of one face.
+def nine(photo: Image, landmarks: Landmarks, *, softness: Annotated[float, Field(ge=0.01, le=0.5)] = 0.08) -> Regions:
+    """The nine regions of one face (paper, "Face Detail Transfer"), H x W each.
 
     Args:
         photo: gives the size; its pixels are not read. landmarks: scheme "facemesh468".
-        softness: width of the way from 1 to 0, half of it inside the contour, in inter-ocular distances.
+        softness: width of the ramp from 1 to 0, half of it inside of the contour, in inter-ocular distances.
 
     Raises:
         UsageError: the landmarks follow another scheme.
     """
     drawn = atlas(softness)
-    return Regions(*projected([drawn[name] for name in NAMES], photo, landmarks))
+    return Regions(*projected([drawn[name] for name in REGIONS], photo, landmarks))

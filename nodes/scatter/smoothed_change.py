@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.color import decode_srgb, encode_srgb
 from graphface.nodes.pixel_grid import grid_middles
 from graphface.nodes.strips import by_strips
@@ -40,7 +41,7 @@ def smoothed_change(
     scale = min(1.0, RESOLUTION / interocular)
     height, width = surface.coverage.shape
     rows, columns = grid_middles(height, scale), grid_middles(width, scale)
-    window = _covered_window(surface.coverage[np.ix_(rows, columns)])
+    window = bounding_box(surface.coverage[np.ix_(rows, columns)], margin=1)
     if window is None:
         return shading
     grid = np.ix_(rows[window[0]], columns[window[1]])
@@ -63,14 +64,6 @@ def smoothed_change(
 
     by_strips(strip, result.shape)
     return result if result.shape[2] > 1 else result[..., 0]
-
-
-def _covered_window(coverage: FloatArray) -> tuple[slice, slice] | None:
-    """The rows and columns that hold the surface and one point around it; None where there is no surface."""
-    rows, columns = (np.flatnonzero(coverage.any(axis=axis)) for axis in (1, 0))
-    if not len(rows):
-        return None
-    return slice(max(rows[0] - 1, 0), rows[-1] + 2), slice(max(columns[0] - 1, 0), columns[-1] + 2)
 
 
 def _with_channel_axis(values: FloatArray) -> FloatArray:

@@ -1,37 +1,22 @@
-"""Which pixels get how much of the reference's detail."""
+"""Which pixels take how much of the reference's detail."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from graphface import node, warn
-from graphface.nodes.types import (
-    Correspondence,
-    Features,
-    Mask,
-    Regions,
-)
+from graphface.nodes.types import REGIONS, Correspondence, Features, Mask, Regions
 
-Region = Literal[
-    "left_brow",
-    "right_brow",
-    "left_eye",
-    "right_eye",
-    "forehead",
-    "nose",
-    "mouth",
-    "left_cheek",
-    "right_cheek",
-]
+if TYPE_CHECKING:
+    Region = str
+else:
+    Region = Literal[REGIONS]  # a type checker cannot read names that are written only once
 
 
 Strength = Annotated[float, Field(ge=0, le=2)]
-
-
-REGIONS: tuple[Region, ...] = Region.__args__  # type: ignore[attr-defined]
 
 
 @node("transfer.mask")
@@ -49,19 +34,17 @@ def mask(
     openings: Strength = 0.0,
     painted: Strength = 0.0,
 ) -> Mask:
-    """How much of the reference's detail each pixel gets.
+    """How much of the reference's detail each pixel takes, H x W, 0 to 2.
 
     Args:
-        regions: the input's. correspondence: parts that the reference hides keep the input's detail.
-        features: the input's; `openings` of its eyes and mouth get that share (a gaze and teeth are no detail of skin).
+        regions: the input's. correspondence: where the reference does not show a point the input's detail stays.
+        features: the input's; `openings` is the strength inside the openings of eyes and mouth (a gaze and teeth are
+            no detail of skin).
         skin: where the input's detail may be changed; hair in front of the face is not skin.
         given: a user's own mask, multiplied on top.
-        paint: where the reference is painted (`transfer.paint`); `painted` of that gets this share.
-        take: which regions; none leaves the photo as it is. Left and right are the person's own.
-        strength: of all; `strengths`: of single regions, in its place. Above 1 detail is exaggerated.
-
-    Returns:
-        H x W, 0..2.
+        paint: where the reference wears makeup, of `transfer.paint`; `painted` is the strength there.
+        take: the regions that are transferred; with none the photo does not change. Left and right are the person's.
+        strength: of all regions. strengths: of single regions, instead. Above 1 detail is exaggerated.
     """
     if not take:
         warn("transfer.mask: no region was asked for; the photo stays as it is")
@@ -70,7 +53,7 @@ def mask(
         total += getattr(regions, name) * np.float32(strengths.get(name, strength))
     total *= correspondence.known * correspondence.inside
     if features is not None:
-        total *= 1 - np.maximum(features.eyes, features.mouth) * np.float32(1 - min(openings, 1))
+        total *= 1 - features.openings * np.float32(1 - min(openings, 1))
     if paint is not None:
         total *= 1 - paint * np.float32(1 - min(painted, 1))
     for factor in (skin, given):

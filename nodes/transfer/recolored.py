@@ -1,4 +1,4 @@
-"""The reference's detail in the input's colors."""
+"""A detail map in the colors of another albedo."""
 
 from __future__ import annotations
 
@@ -11,37 +11,34 @@ from pydantic import Field
 from graphface import node
 from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import (
-    Albedo,
-    DetailMap,
-)
+from graphface.nodes.types import Albedo, DetailMap
 
 
-@node("transfer.recoloured")
-def recoloured(
+@node("transfer.recolored", formerly=("transfer.recoloured",))
+def recolored(
     detail: DetailMap, reference: Albedo, albedo: Albedo, *, floor: Annotated[float, Field(gt=0, le=1)] = 0.1
 ) -> DetailMap:
-    """The reference's detail on the input's albedo: a wrinkle darkens the skin that it lies in.
+    """A detail map made on one albedo, as it would be on another: a wrinkle darkens the skin that it lies in.
 
-    The additive map is rho (s - SH), so its color is the albedo's; taken as it is, the shadow of a red lip would leave
-    a green one on pale skin. s - SH is read off the means of both over the channels, and what the two albedos differ by
-    is moved along with it: equal albedos leave the map as it is, to the last bit, also where the floor is at work.
+    The additive map is I_d = rho (s - SH), so it has the albedo's color: unchanged, the shadow of a red lip would leave
+    a green one on pale skin. s - SH is estimated as the channel mean of I_d over that of rho, and the difference of the
+    two albedos times it is added. Equal albedos leave the map as it is, to the last bit, also below the floor.
 
     Args:
-        reference, albedo: the reference's, warped to the input, and the input's.
-        floor: least mean albedo divided by.
+        detail: the map. reference: the albedo that it was made on, at the input's pixels. albedo: the new one.
+        floor: least mean albedo that is divided by.
     """
     offset = np.empty_like(detail.offset)
     pivot = None if detail.pivot is None else np.empty_like(detail.pivot)
 
     def strip(rows: slice) -> None:
-        own, other = albedo[rows], reference[rows]
-        least = np.maximum(channel_mean(other), np.float32(floor))
-        moved = np.asarray(channel_mean(detail.offset[rows]) / least, np.float32)
-        offset[rows] = detail.offset[rows] + (own - other) * in_three_channels(moved)
+        new, old = albedo[rows], reference[rows]
+        divisor = np.maximum(channel_mean(old), np.float32(floor))
+        residual_shading = np.asarray(channel_mean(detail.offset[rows]) / divisor, np.float32)
+        offset[rows] = detail.offset[rows] + (new - old) * in_three_channels(residual_shading)
         if pivot is not None and detail.pivot is not None:
-            lighter = np.asarray(channel_mean(own) / least, np.float32)
-            pivot[rows] = np.asarray(detail.pivot[rows] * in_three_channels(lighter), np.float32)
+            ratio = np.asarray(channel_mean(new) / divisor, np.float32)
+            pivot[rows] = np.asarray(detail.pivot[rows] * in_three_channels(ratio), np.float32)
 
     by_strips(strip, offset.shape)
     return replace(detail, offset=offset, pivot=pivot, ceiling=None)

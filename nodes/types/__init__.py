@@ -24,7 +24,7 @@ from graphface.nodes.types.arrays import (
     Visibility,
 )
 from graphface.nodes.types.correspondence import Correspondence, Pins
-from graphface.nodes.types.face_parts import Features, HeadMasks, Regions, Segmentation
+from graphface.nodes.types.face_parts import REGIONS, Features, HeadMasks, Regions, Segmentation
 from graphface.nodes.types.geometry import Camera, FitRecord, Landmarks, Mesh, Surface
 from graphface.nodes.types.illumination import Environment, Lighting, LightingFit
 from graphface.nodes.types.image import FileFormat, Image
@@ -35,6 +35,7 @@ from graphface.nodes.types.representation import Representation
 from graphface.nodes.types.scene import Scene
 
 __all__ = [
+    "REGIONS",
     "Albedo",
     "Camera",
     "Correspondence",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,11 @@ class Features:
     brows: Mask
     nose: Mask
     cheeks: Mask
+
+    @property
+    def openings(self) -> Mask:
+        """Eyes and mouth: what lies in them is not skin."""
+        return self.any_of("eyes", "mouth")
 
     def any_of(self, *names: str) -> Mask:
         """The largest of some of the masks."""
@@ -94,3 +99,7 @@ class Regions:
     mouth: Mask
     left_cheek: Mask
     right_cheek: Mask
+
+
+REGIONS = tuple(field.name for field in fields(Regions))
+"""The names of the nine regions."""

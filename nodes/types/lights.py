@@ -8,37 +8,19 @@ frame: x right, y up, z towards the viewer.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from graphface.nodes.temperature import kelvin_color
 
 Nonnegative = Annotated[float, Field(ge=0, le=1e6)]
-
-
 Color = tuple[Nonnegative, Nonnegative, Nonnegative]
-
-
-Azimuth = Annotated[float, Field(ge=-360, le=360)]
-
-
-Elevation = Annotated[float, Field(ge=-90, le=90)]
-
-
-Size = Annotated[float, Field(ge=0, le=90)]
-
-
 Coordinate = Annotated[float, Field(ge=-1e4, le=1e4)]
-
-
 Point = tuple[Coordinate, Coordinate, Coordinate]
-
-
-Shadow = Literal["none", "hard", "soft"]
-
+Angle = Annotated[float, Field(ge=0, le=90)]
 
 WHITE: Color = (1.0, 1.0, 1.0)
 
@@ -56,20 +38,35 @@ SH_PRESETS: dict[str, tuple[float, ...]] = {
 class Part(BaseModel):
     """What all parts of a scene file have in common: fixed once read, no unknown keys, no NaN."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config: ClassVar[ConfigDict] = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class _Light(Part):
-    """`color` is linear RGB; or give `kelvin`, 6500 for white, less for warmer. `intensity` multiplies it."""
+    """What all lights have. `_instead` names fields that stand for others: only one of them may be given."""
 
-    color: Color = WHITE
-    kelvin: Annotated[float, Field(ge=1667, le=25000)] | None = None
-    intensity: Nonnegative = 1.0
+    _instead: ClassVar[dict[str, tuple[str, ...]]] = {"kelvin": ("color",)}
+
+    color: Annotated[Color, Field(description="Linear RGB.", examples=[[1.0, 0.25, 0.2]])] = WHITE
+    kelvin: Annotated[
+        Annotated[float, Field(ge=1667, le=25000)] | None,
+        Field(
+            description="The color of a glowing body, in kelvin: 6500 is white, less is warmer.", examples=[2700, 5600]
+        ),
+    ] = None
+    intensity: Annotated[
+        Nonnegative,
+        Field(description="Irradiance of a surface that faces the light, where the photo's face has 1 in the mean."),
+    ] = 1.0
 
     @model_validator(mode="after")
-    def _one_color(self) -> _Light:
-        if self.kelvin is not None and "color" in self.model_fields_set:
-            raise ValueError("give either a color or kelvin, not both")
+    def _given_once(self) -> Self:
+        twice = []
+        for name, others in self._instead.items():
+            given = [other for other in others if other in self.model_fields_set]
+            if given and getattr(self, name) is not None:
+                twice.append(f"either {name} or {' and '.join(given)}")
+        if twice:
+            raise ValueError(f"give {', '.join(twice)}, not both")
         return self
 
     @property
@@ -84,20 +81,28 @@ class _Light(Part):
 
 
 class HarmonicLight(_Light):
-    """Spherical-harmonic irradiance: `coefficients` (1, 4, 9 or 16, see `graphface.nodes.sh`), a number or RGB each, or
-    a named preset. It casts no shadow.
-    """
+    """Spherical-harmonic irradiance: `coefficients` (see `graphface.nodes.sh`) or a `preset`. It casts no shadow."""
 
     type: Literal["sh"] = "sh"
-    coefficients: tuple[float, ...] | tuple[tuple[float, float, float], ...] | None = None
-    preset: Literal["ambient", "overcast", "front", "left", "right"] | None = None
+    coefficients: Annotated[
+        tuple[float, ...] | tuple[tuple[float, float, float], ...] | None,
+        Field(description="1, 4, 9 or 16 in (l, m) order, each a number or linear RGB.", examples=[[2.8, 1, 0.5, 0]]),
+    ] = None
+    preset: Annotated[
+        Literal["ambient", "overcast", "front", "left", "right"] | None, Field(description="A light by its name.")
+    ] = None
+
+    @field_validator("coefficients")
+    @classmethod
+    def _whole_bands(cls, given: tuple[Any, ...] | None) -> tuple[Any, ...] | None:
+        if given is not None and len(given) not in (1, 4, 9, 16):
+            raise ValueError("1, 4, 9 or 16 coefficients make a light")
+        return given
 
     @model_validator(mode="after")
-    def _one_source(self) -> HarmonicLight:
+    def _one_source(self) -> Self:
         if (self.coefficients is None) == (self.preset is None):
             raise ValueError("give either coefficients or a preset")
-        if self.coefficients is not None and len(self.coefficients) not in (1, 4, 9, 16):
-            raise ValueError(f"1, 4, 9 or 16 coefficients make a light, got {len(self.coefficients)}")
         return self
 
     @property
@@ -114,14 +119,20 @@ class HarmonicLight(_Light):
 class _Casting(_Light):
     """A light that comes from somewhere and may cast a shadow.
 
-    `size` is the angle from the light's middle to its edge, seen from the face: a large light wraps around the face, a
-    small one ends in a hard line. A `soft` shadow has the penumbra of that size, a `hard` one has none.
+    A large light wraps around the face, a small one ends in a hard line.
     """
 
-    azimuth: Azimuth = 0.0
-    elevation: Elevation = 0.0
-    size: Size = 15.0
-    shadow: Shadow = "soft"
+    azimuth: Annotated[
+        float, Field(ge=-360, le=360, description="Degrees from the viewer to the picture's right.", examples=[-55])
+    ] = 0.0
+    elevation: Annotated[float, Field(ge=-90, le=90, description="Degrees above the face.", examples=[30])] = 0.0
+    size: Annotated[
+        Angle, Field(description="Degrees from the light's middle to its edge, seen from the face.", examples=[5, 25])
+    ] = 15.0
+    shadow: Annotated[
+        Literal["none", "hard", "soft"],
+        Field(description="A soft shadow has the penumbra of the light's size, a hard one has none."),
+    ] = "soft"
 
     @property
     def from_angles(self) -> NDArray[np.float32]:
@@ -129,27 +140,24 @@ class _Casting(_Light):
         a, e = np.radians(self.azimuth), np.radians(self.elevation)
         return np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)], np.float32)
 
-    def refuse_angles(self, instead: str) -> None:
-        if {"azimuth", "elevation"} & self.model_fields_set:
-            raise ValueError(f"give either a {instead} or azimuth and elevation, not both")
-
 
 class DirectionalLight(_Casting):
-    """A light so far away that it shines in parallel; a surface facing it gets irradiance `intensity`.
+    """A light so far away that it shines in parallel. Give azimuth and elevation, or a `direction`."""
 
-    Give azimuth and elevation, or `direction`, a vector towards the light.
-    """
+    _instead = {**_Casting._instead, "direction": ("azimuth", "elevation")}
 
     type: Literal["directional"] = "directional"
-    direction: tuple[float, float, float] | None = None
+    direction: Annotated[
+        tuple[float, float, float] | None,
+        Field(description="A vector towards the light, of any length: x right, y up, z towards the viewer."),
+    ] = None
 
-    @model_validator(mode="after")
-    def _one_direction(self) -> DirectionalLight:
-        if self.direction is not None:
-            self.refuse_angles("direction")
-            if float(np.linalg.norm(self.direction)) < 1e-6:
-                raise ValueError("the direction has no length; give a vector that points towards the light")
-        return self
+    @field_validator("direction")
+    @classmethod
+    def _points_somewhere(cls, given: tuple[float, float, float] | None) -> tuple[float, float, float] | None:
+        if given is not None and float(np.linalg.norm(given)) < 1e-6:
+            raise ValueError("a direction without a length; give a vector that points towards the light")
+        return given
 
     @property
     def towards(self) -> NDArray[np.float32]:
@@ -161,25 +169,36 @@ class DirectionalLight(_Casting):
 
 
 class PointLight(_Casting):
-    """A lamp that shines to all sides; a surface at the middle of the face, facing it, gets irradiance `intensity`.
+    """A lamp that shines to all sides; its intensity is that at the middle of the face.
 
-    Give azimuth, elevation and `distance`, or `position`. Irradiance falls with distance to the power `falloff`: 2 is
-    physical, 0 none. Nearer than `core` it rises no more, so a lamp inside the head stays finite.
+    Give azimuth, elevation and `distance`, or `position`.
     """
 
-    type: Literal["point"] = "point"
-    position: Point | None = None
-    distance: Annotated[float, Field(gt=0, le=1e4)] = 4.0
-    falloff: Annotated[float, Field(ge=0, le=8)] = 2.0
-    core: Annotated[float, Field(gt=0, le=100)] = 0.25
+    _instead = {**_Casting._instead, "position": ("azimuth", "elevation", "distance")}
 
-    @model_validator(mode="after")
-    def _one_place(self) -> PointLight:
-        if self.position is not None:
-            self.refuse_angles("position")
-            if "distance" in self.model_fields_set:
-                raise ValueError("give either a position or a distance, not both")
-        return self
+    type: Literal["point"] = "point"
+    position: Annotated[
+        Point | None,
+        Field(
+            description="In inter-ocular distances from the middle of the face: x right, y up, z towards the viewer.",
+            examples=[[0.8, -3.0, 4.0]],
+        ),
+    ] = None
+    distance: Annotated[
+        float, Field(gt=0, le=1e4, description="In inter-ocular distances from the middle of the face.")
+    ] = 4.0
+    falloff: Annotated[
+        float, Field(ge=0, le=8, description="Irradiance falls with this power of the distance: 2 is physical, 0 none.")
+    ] = 2.0
+    core: Annotated[
+        float,
+        Field(
+            gt=0,
+            le=100,
+            description="In inter-ocular distances; nearer than this irradiance rises no more, so that a lamp inside "
+            "the head stays finite.",
+        ),
+    ] = 0.25
 
     @property
     def place(self) -> NDArray[np.float32]:
@@ -197,15 +216,14 @@ class PointLight(_Casting):
 
 
 class SpotLight(PointLight):
-    """A point light behind a round opening: full within `cone` of its axis, none beyond `cone` + `penumbra`.
-
-    The axis runs from the light to `target`; both angles are measured from the axis, so a cone of 20 is 40 wide.
-    """
+    """A point light behind a round opening: full within `cone` of its axis, none beyond `cone` + `penumbra`."""
 
     type: Literal["spot"] = "spot"  # type: ignore[assignment]
-    target: Point = (0.0, 0.0, 0.0)
-    cone: Annotated[float, Field(ge=0, le=90)] = 20.0
-    penumbra: Annotated[float, Field(ge=0, le=90)] = 10.0
+    target: Annotated[
+        Point, Field(description="What the axis leads to, in inter-ocular distances from the middle of the face.")
+    ] = (0.0, 0.0, 0.0)
+    cone: Annotated[Angle, Field(description="Degrees from the axis: a cone of 20 is 40 wide.", examples=[12])] = 20.0
+    penumbra: Annotated[Angle, Field(description="Degrees beyond the cone over which the light ends.")] = 10.0
 
     @property
     def axis(self) -> NDArray[np.float32]:
@@ -222,7 +240,9 @@ class EnvironmentLight(_Light):
     """
 
     type: Literal["environment"] = "environment"
-    azimuth: Azimuth = 0.0
+    azimuth: Annotated[
+        float, Field(ge=-360, le=360, description="Degrees by which the panorama is turned to the right.")
+    ] = 0.0
 
     @property
     def colored(self) -> bool:

@@ -13,12 +13,12 @@ An ambient of 1 leaves the brightness as it is, and a scene means the same for a
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, ValidationError
+from pydantic import Field
 
+from graphface import validated
 from graphface.nodes.types.lights import (
     Casting,
     Color,
@@ -36,30 +36,46 @@ _BEHIND = -0.9
 
 
 class Scene(Part):
-    """A scene file's content.
+    """A scene file's content. At background 1, hair 0, scatter 0 and specular 0 none of these is simulated."""
 
-    `mode`: the lights `replace` the photo's own, are `add`ed to it, or `mix` with it by the share `mix`. With
-    `keep_mean` (replace and mix) the lights are scaled together so that the face stays as bright as it was, times
-    `exposure`; without it irradiance is taken as written, times `exposure`.
-
-    `background` is the share of the new light on what is neither face nor hair. `hair` is how much of the old light
-    hair keeps at its brightest pixels, which are its highlights. `scatter` is the radius, in inter-ocular distances,
-    over which light spreads beneath the skin. `specular` is the strength of the highlights that the new lights make on
-    the skin, `roughness` their width. At background 1, hair 0, scatter 0 and specular 0 none of these is simulated.
-    """
-
-    doc: str = ""
-    mode: Literal["replace", "add", "mix"] = "replace"
-    mix: Annotated[float, Field(ge=0, le=1)] = 0.5
-    ambient: Nonnegative | Color = 0.0
-    lights: tuple[Light, ...] = ()
-    keep_mean: bool = True
-    exposure: Annotated[float, Field(ge=0, le=100)] = 1.0
-    background: Annotated[float, Field(ge=0, le=1)] = 0.35
-    hair: Annotated[float, Field(ge=0, le=1)] = 0.5
-    scatter: Annotated[float, Field(ge=0, le=1)] = 0.0
-    specular: Annotated[float, Field(ge=0, le=10)] = 0.0
-    roughness: Annotated[float, Field(ge=0.05, le=1)] = 0.35
+    doc: Annotated[str, Field(description="What the scene is, in a sentence.")] = ""
+    mode: Annotated[
+        Literal["replace", "add", "mix"],
+        Field(description="The lights replace the photo's own, are added to it, or mix with it."),
+    ] = "replace"
+    mix: Annotated[float, Field(ge=0, le=1, description="Share of the new light in mode mix.")] = 0.5
+    ambient: Annotated[
+        Nonnegative | Color,
+        Field(
+            description="Light from everywhere, a number or linear RGB; 1 leaves the brightness as it is.",
+            examples=[0.3, [0.06, 0.08, 0.12]],
+        ),
+    ] = 0.0
+    lights: Annotated[tuple[Light, ...], Field(description="Any number of lights, whose effects add up.")] = ()
+    keep_mean: Annotated[
+        bool,
+        Field(
+            description="In modes replace and mix the lights are scaled together so that the face stays as bright as "
+            "it was; otherwise irradiance is taken as written."
+        ),
+    ] = True
+    exposure: Annotated[float, Field(ge=0, le=100, description="Multiplies the light that results.")] = 1.0
+    background: Annotated[
+        float, Field(ge=0, le=1, description="Share of the new light on what is neither face nor hair.")
+    ] = 0.35
+    hair: Annotated[
+        float, Field(ge=0, le=1, description="Share of the old light that hair keeps at its highlights.")
+    ] = 0.5
+    scatter: Annotated[
+        float,
+        Field(ge=0, le=1, description="Radius, in inter-ocular distances, over which light spreads beneath the skin."),
+    ] = 0.0
+    specular: Annotated[
+        float, Field(ge=0, le=10, description="Strength of the highlights that the new lights make on the skin.")
+    ] = 0.0
+    roughness: Annotated[
+        float, Field(ge=0.05, le=1, description="Width of these highlights: the roughness of the skin's surface.")
+    ] = 0.35
 
     @property
     def colored(self) -> bool:
@@ -102,23 +118,13 @@ class Scene(Part):
         }
 
     @classmethod
-    def from_file(cls, path: Path) -> Scene:
-        from graphface.nodes.io.scene import read_scene
-
-        return read_scene(Path(path), cls)
-
-    @classmethod
     def coerce(cls, value: object) -> Scene:
-        """A scene from a mapping, or from the path of a scene file."""
-        if isinstance(value, Scene):
-            return value
-        if isinstance(value, str | Path):
-            return cls.from_file(Path(value))
-        try:
-            return cls.model_validate(value)
-        except ValidationError as error:
-            place, message = first_problem(error)
-            raise ValueError(f"not a scene: {'.'.join(map(str, place))}: {message}") from None
+        """A scene from a mapping.
+
+        Raises:
+            DocumentError: it is not a scene; every mistake, and what was expected.
+        """
+        return validated(value, cls)
 
 
 def _toward_viewer(light: Casting) -> float:
@@ -126,12 +132,3 @@ def _toward_viewer(light: Casting) -> float:
     if isinstance(light, DirectionalLight):
         return float(light.towards[2])
     return float(light.place[2]) / max(float(np.linalg.norm(light.place)), 1e-6)
-
-
-def first_problem(error: ValidationError) -> tuple[tuple[int | str, ...], str]:
-    """Where the first problem is, by keys and positions as written in the file, and what it is."""
-    problem = error.errors()[0]
-    alternatives = {"directional", "point", "spot", "sh", "environment", "constrained-float", "function-after"}
-    place = tuple(key for key in problem["loc"] if key not in alternatives and not str(key).startswith("tuple["))
-    message = problem["msg"].removeprefix("Value error, ")
-    return place, "unknown key" if problem["type"] == "extra_forbidden" else message

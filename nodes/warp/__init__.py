@@ -1,1 +1,2 @@
-"""From a reference photo to the input: where each pixel's point of the face is there, and values fetched from there."""
+"""From a reference photo to the input: `mesh` finds where each pixel's point of the face lies in the reference, and
+`resample` computes the reference's values there."""

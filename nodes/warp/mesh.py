@@ -1,7 +1,8 @@
-"""Correspondence through two aligned meshes (paper, "Face geometry"): the same triangle, the same weights."""
+"""Correspondence through two aligned meshes (paper, "Face geometry"): same triangle, same barycentric coordinates."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -10,28 +11,34 @@ from pydantic import Field
 
 from graphface import UsageError, node, warn
 from graphface.nodes.blur import blurred
+from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Correspondence, FloatArray, Mask, Mesh, Pins, Surface
+from graphface.nodes.vertex_visibility import unoccluded, vertex_pixels
 
 Hidden = Literal["mirror", "input"]
 
 
-_UNSEEN = 0.05
-"""What counts as not seen at all, 0..1: two photos that both do not show a point are equally good."""
+_INVISIBLE = np.float32(0.05)
+"""Added to both visibilities before they are divided: where neither photo shows a point, they are equally good."""
 
 
-_STANDS_IN = 0.7
-"""How far the reference must show a point for its mirror image not to be asked."""
+_ENOUGH = 0.7
+"""Validity from which on the mirror image is not needed."""
 
 
 _FADE = 0.04
-"""Width of the way from a point to its mirror image, inter-ocular distances, on the side where the point is shown: on
-the other side the reference may be anything."""
+"""Sigma, in inter-ocular distances, of the transition from a point to its mirror image. It lies on the side where the
+point is visible, because on the other side the reference may show anything."""
+
+
+_DEPTH_TOLERANCE = 0.12
+"""Depth behind another part of the face, in inter-ocular distances, from which on a vertex begins to be occluded."""
 
 
 _OUTLINE = 0.06
-"""Distance from the mesh's outline, inter-ocular distances, below which a place may show what is behind the face."""
+"""Distance from the mesh's outline, in inter-ocular distances, below which a pixel may show what is behind the face."""
 
 
 @node("warp.mesh")
@@ -50,13 +57,15 @@ def mesh(
 ) -> Correspondence:
     """Where each pixel's point of the input's face lies in the reference.
 
+    A place is valid where the reference shows the point as well as the input does.
+
     Args:
         surface, mesh: the input's. reference_surface, reference_mesh: the reference's, of the same triangles.
-        mask, reference_mask: the input's skin, and what of the reference may be taken, its skin; without them, all. A
-            place is valid where the reference shows the point as well as the input does.
+        mask, reference_mask: the input's visible skin, and the reference's; without the second, all is visible.
         pins: correspondences set by hand; their corrections fade out over `pin_reach` inter-ocular distances.
-        hidden: what stands in for points that the reference hides: their mirror images, or nothing (the input stays).
-        facing: cosine between normal and view at which the reference fully shows a surface; at half of it, not at all.
+        hidden: what replaces points that the reference does not show: "mirror" their mirror images, "input" nothing, so
+            that the input stays.
+        facing: cosine between normal and view from which on a surface counts as visible; below half of it, it does not.
 
     Raises:
         UsageError: the two meshes have different triangles.
@@ -70,94 +79,89 @@ def mesh(
     inside = (surface.coverage > 0.5).astype(np.float32)
     if not inside.any():
         warn("warp.mesh: the input's mesh covers no pixel; nothing corresponds")
-        places = np.zeros((*inside.shape, 2), np.float32)
-        return Correspondence(places, inside, np.zeros_like(inside), size)
-
-    own, shown = (_shown_vertices(s, m, facing) for s, m in ((surface, mesh), (reference_surface, reference_mesh)))
+        return Correspondence(np.zeros((*inside.shape, 2), np.float32), inside, np.zeros_like(inside), size)
+    visible, reference_visible = (
+        _visible_vertices(s, m, facing) for s, m in ((surface, mesh), (reference_surface, reference_mesh))
+    )
     masks = None if reference_mask is None else (mask if mask is not None else inside, reference_mask)
-    places, valid = _carried(surface, reference_mesh, own, shown, np.arange(len(own)), masks, size)
+    reference = _Reference(reference_mesh, reference_visible, masks, size)
+    places, valid = _interpolated(surface, visible, reference, np.arange(len(visible)))
     if pins is not None and len(pins.points):
-        places = places + _pinned(places, pins, pin_reach * mesh.interocular)
-    mirror = _mirror_vertices(mesh)
-    if hidden == "input" or mirror is None:
-        if hidden == "mirror":
-            warn("warp.mesh: this mesh has no known mirror image; what the reference hides stays the input's")
+        places = places + _pin_corrections(places, pins, pin_reach * mesh.interocular)
+    if hidden == "input":
         return Correspondence(places, inside, valid, size)
-    needed = _spread(np.clip((_STANDS_IN - valid) * 4, 0, 1) * inside, _FADE * mesh.interocular)
-    mirrored, mirrored_valid = _carried(surface, reference_mesh, own, shown, mirror, masks, size, needed)
-    mirrored_valid *= needed
-    return Correspondence(places, inside, valid, size, mirrored, mirrored_valid)
+    mirror = _mirror_vertices(mesh)
+    if mirror is None:
+        warn("warp.mesh: this mesh has no known mirror image; what the reference hides stays the input's")
+        return Correspondence(places, inside, valid, size)
+    needed = _extended(np.clip((_ENOUGH - valid) * 4, 0, 1) * inside, _FADE * mesh.interocular)
+    mirrored, mirrored_valid = _interpolated(surface, visible, reference, mirror, needed)
+    return Correspondence(places, inside, valid, size, mirrored, mirrored_valid * needed)
 
 
-def _spread(needed: Mask, width: float) -> Mask:
-    """Grown, and fading out from where it ended."""
-    if not needed.any():
-        return needed
-    wider: Mask = np.maximum(needed, np.clip(2 * blurred(needed, max(width, 0.5)), 0, 1))
-    return wider
+@dataclass(frozen=True)
+class _Reference:
+    """The reference's mesh, visibility of its vertices (V,), masks (the input's, its own) or None, and its size."""
+
+    mesh: Mesh
+    visible: FloatArray
+    masks: tuple[Mask, Mask] | None
+    size: tuple[int, int]
 
 
-def _shown_vertices(surface: Surface, mesh: Mesh, facing: float) -> NDArray[np.float64]:
-    """How far the photo shows each vertex, 0..1: inside the frame and the outline, turned here, nothing in front."""
+def _visible_vertices(surface: Surface, mesh: Mesh, facing: float) -> FloatArray:
+    """How far the photo shows each vertex, (V,) 0 to 1: in the frame, not occluded, facing the viewer, off the outline.
+
+    Surfaces near the outline do not count, because a small error of the fit would show the background there.
+    """
     import cv2
 
-    height, width = surface.coverage.shape
-    pixels = mesh.camera.project(mesh.vertices.astype(np.float64))
-    in_frame = ((pixels >= -0.5) & (pixels <= np.array([width, height]) - 0.5)).all(axis=1)
-    x, y = (np.clip(np.rint(pixels[:, k]), 0, n - 1).astype(int) for k, n in ((0, width), (1, height)))
-    behind = np.where(surface.coverage[y, x] > 0, surface.depth[y, x] - mesh.vertices[:, 2], 0)
-    unoccluded = np.clip(2 - behind / max(0.12 * mesh.interocular, 1e-6), 0, 1)
     turned = np.clip((mesh.normals[:, 2] / facing - 0.5) * 2, 0, 1)
-    sparse = (surface.coverage[::2, ::2] > 0).astype(np.uint8)  # every other pixel tells it well enough
-    depth = 2 * cv2.distanceTransform(sparse, cv2.DIST_L2, 3)[y // 2, x // 2]
-    within = np.clip(depth / max(_OUTLINE * mesh.interocular, 1e-6), 0, 1)
-    shown: NDArray[np.float64] = in_frame * unoccluded * turned * within
-    return shown
+    covered = (surface.coverage[::2, ::2] > 0).astype(np.uint8)  # half the resolution is accurate enough
+    row, column, _ = vertex_pixels(mesh, surface.coverage.shape)
+    depth = 2 * cv2.distanceTransform(covered, cv2.DIST_L2, 3)[row // 2, column // 2]
+    off_outline = np.clip(depth / max(_OUTLINE * mesh.interocular, 1e-6), 0, 1)
+    return np.asarray(unoccluded(surface, mesh, _DEPTH_TOLERANCE) * turned * off_outline, np.float32)
 
 
-def _carried(
-    surface: Surface,
-    reference: Mesh,
-    own: NDArray[np.float64],
-    shown: NDArray[np.float64],
-    vertex: NDArray[Any],
-    masks: tuple[Mask, Mask] | None,
-    size: tuple[int, int],
-    needed: Mask | None = None,
+def _interpolated(
+    surface: Surface, visible: FloatArray, reference: _Reference, vertex: NDArray[Any], needed: Mask | None = None
 ) -> tuple[FloatArray, Mask]:
-    """Places H x W x 2 and validity H x W, where vertex k of the input's mesh is vertex[k] of the reference's.
+    """Places H x W x 2 in the reference, and their validity H x W.
 
-    `needed`: where it is 0 the answer is of no use, and is 0.
+    Args:
+        visible: of the input's vertices. vertex: the reference's vertex that belongs to each of the input's.
+        needed: where it is 0 the results are not needed, and are 0.
     """
-    positions = reference.vertices[vertex]
-    valid_at = np.minimum((shown[vertex] + _UNSEEN) / (own + _UNSEEN), 1)
-    of_vertex = np.column_stack([positions, valid_at]).astype(np.float32)
-    triangles = reference.triangles
-    rows, columns = _window(surface.coverage > 0)
-    seen, weights = surface.triangle[rows, columns], surface.barycentric[rows, columns]
-    wanted = seen >= 0 if needed is None else (seen >= 0) & (needed[rows, columns] > 0)
-    tables = [of_vertex[triangles[:, k]] for k in range(3)]
+    triangles, camera = reference.mesh.triangles, reference.mesh.camera
+    valid_vertices = np.minimum((reference.visible[vertex] + _INVISIBLE) / (visible + _INVISIBLE), 1)
+    of_vertex = np.column_stack([reference.mesh.vertices[vertex], valid_vertices]).astype(np.float32)
+    of_corner = [of_vertex[triangles[:, k]] for k in range(3)]
     places = np.zeros((*surface.coverage.shape, 2), np.float32)
     valid = np.zeros(surface.coverage.shape, np.float32)
-    height, width = size
+    box = bounding_box(surface.coverage > 0)
+    assert box is not None, "the caller has seen to it that the mesh covers a pixel"
+    triangle_at, weights = surface.triangle[box], surface.barycentric[box]
+    wanted = triangle_at >= 0 if needed is None else (triangle_at >= 0) & (needed[box] > 0)
+    height, width = reference.size
 
-    def carry(strip: slice) -> None:
-        row, column = np.nonzero(wanted[strip])
-        triangle, weight = seen[strip][row, column], weights[strip][row, column]
-        carried = np.zeros((len(triangle), 4), np.float32)
-        for k, table in enumerate(tables):
-            carried += weight[:, k, None] * table.take(triangle, axis=0)
-        # The weights are those of the point in space, so it is points in space that they may mix.
-        at = reference.camera.project(carried[:, :3])
+    def strip(rows: slice) -> None:
+        row, column = np.nonzero(wanted[rows])
+        triangle, weight = triangle_at[rows][row, column], weights[rows][row, column]
+        found = np.zeros((len(triangle), 4), np.float32)
+        for k, values in enumerate(of_corner):
+            found += weight[:, k, None] * values.take(triangle, axis=0)
+        # Barycentric coordinates are those of the point in space, so it is interpolated there, and then projected.
+        at = camera.project(found[:, :3])
         x, y = at[:, 0], at[:, 1]
-        inside = (x >= -0.5) & (y >= -0.5) & (x <= width - 0.5) & (y <= height - 0.5)
-        pixels = row + rows.start + strip.start, column + columns.start
-        places[pixels], valid[pixels] = at, carried[:, 3] * inside
+        in_frame = (x >= -0.5) & (y >= -0.5) & (x <= width - 0.5) & (y <= height - 0.5)
+        pixels = row + box[0].start + rows.start, column + box[1].start
+        places[pixels], valid[pixels] = at, found[:, 3] * in_frame
 
-    by_strips(carry, (*seen.shape, 4))
-    if masks is not None:
-        unseen = np.float32(_UNSEEN)
-        valid *= np.minimum((_sampled(masks[1], places) + unseen) / (masks[0] + unseen), 1)
+    by_strips(strip, (*triangle_at.shape, 4))
+    if reference.masks is not None:
+        own, of_reference = reference.masks[0], _sampled(reference.masks[1], places)
+        valid *= np.minimum((of_reference + _INVISIBLE) / (own + _INVISIBLE), 1)
     return places, valid
 
 
@@ -167,16 +171,18 @@ def _sampled(values: FloatArray, places: FloatArray) -> FloatArray:
     return np.asarray(cv2.remap(values, places, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)  # type: ignore[call-overload]
 
 
-def _window(covered: NDArray[np.bool_]) -> tuple[slice, slice]:
-    """The bounding box of what is covered."""
-    rows, columns = np.flatnonzero(covered.any(axis=1)), np.flatnonzero(covered.any(axis=0))
-    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+def _extended(needed: Mask, sigma: float) -> Mask:
+    """The mask, continued beyond its edge by a ramp that ends after about two sigmas."""
+    if not needed.any():
+        return needed
+    extended: Mask = np.maximum(needed, np.clip(2 * blurred(needed, max(sigma, 0.5)), 0, 1))
+    return extended
 
 
 def _mirror_vertices(mesh: Mesh) -> NDArray[np.int32] | None:
-    """Which vertex each becomes in a mirror, for models that tell and for the meshes over the 468 points.
+    """The vertex that each becomes in a mirror: given with the mesh, or known for meshes of the 468 points.
 
-    The vertices that `render.head` puts at the end (skull, neck) stand in for none but themselves.
+    The vertices that `render.head` appends (skull, neck) are their own mirror images.
     """
     known, count = mesh.mirror, len(mesh.vertices)
     if known is None and count == len(facemesh_topology().mirror):
@@ -186,14 +192,17 @@ def _mirror_vertices(mesh: Mesh) -> NDArray[np.int32] | None:
     return np.concatenate([known, np.arange(len(known), count, dtype=np.int32)])
 
 
-def _pinned(places: FloatArray, pins: Pins, reach: float) -> FloatArray:
-    """Corrections H x W x 2 that take every pin where it should be, Gaussian around it (Shepard's weights)."""
+def _pin_corrections(places: FloatArray, pins: Pins, sigma: float) -> FloatArray:
+    """H x W x 2 to add to the places: each pin's correction under a Gaussian window, normalized where windows overlap.
+
+    Shepard, A two-dimensional interpolation function for irregularly-spaced data, 1968, with Gaussian weights.
+    """
     height, width = places.shape[:2]
     y, x = np.ogrid[:height, :width]
     total, weight = np.zeros_like(places), np.zeros((height, width), np.float32)
     for px, py, rx, ry in pins.points:
-        at = places[int(np.clip(round(float(py)), 0, height - 1)), int(np.clip(round(float(px)), 0, width - 1))]
-        near = np.exp(-((x - px) ** 2 + (y - py) ** 2) / np.float32(2 * max(reach, 1e-3) ** 2)).astype(np.float32)
-        total += near[..., None] * (np.array([rx, ry], np.float32) - at)
+        row, column = (int(np.clip(round(float(p)), 0, n - 1)) for p, n in ((py, height), (px, width)))
+        near = np.exp(-((x - px) ** 2 + (y - py) ** 2) / np.float32(2 * max(sigma, 1e-3) ** 2)).astype(np.float32)
+        total += near[..., None] * (np.array([rx, ry], np.float32) - places[row, column])
         weight += near
     return np.asarray(total / np.maximum(weight, 1)[..., None], np.float32)

@@ -50,7 +50,7 @@ def picture(kind, side=120):
         "black": np.zeros((side, side, 3)),
         "saturated": np.ones((side, side, 3)),
         "flat": np.full((side, side, 3), 0.4),
-        "two colours": np.where(np.arange(side)[:, None, None] < side // 2, (0.2, 0.1, 0.1), (0.8, 0.6, 0.5))
+        "two colors": np.where(np.arange(side)[:, None, None] < side // 2, (0.2, 0.1, 0.1), (0.8, 0.6, 0.5))
         * np.ones((side, side, 3)),
         "salt and pepper": rng.integers(0, 2, (side, side, 1)) * np.ones(3),
         "noise": rng.uniform(0, 1, (side, side, 3)),
@@ -59,14 +59,14 @@ def picture(kind, side=120):
     return Image(pixels.astype(np.float32))
 
 
-@pytest.mark.parametrize("kind", ["black", "saturated", "flat", "two colours", "salt and pepper", "noise", "holes"])
+@pytest.mark.parametrize("kind", ["black", "saturated", "flat", "two colors", "salt and pepper", "noise", "holes"])
 @pytest.mark.parametrize("matting", [guided, closed_form, knn])
 def test_hard_pictures(kind, matting):
     """Pictures that say nothing, or too much, are partitioned."""
     assert_partition(segmented(picture(kind), landmarks_at(60, 60, 26), matting))
 
 
-@pytest.mark.parametrize("kind", ["black", "saturated", "flat", "two colours", "salt and pepper", "noise", "holes"])
+@pytest.mark.parametrize("kind", ["black", "saturated", "flat", "two colors", "salt and pepper", "noise", "holes"])
 def test_hard_pictures_from_a_cue(kind):
     """So are they where the classifiers start from the small network."""
     assert_partition(segmented_from_a_cue(picture(kind), landmarks_at(60, 60, 26)))
@@ -105,7 +105,7 @@ def test_single_hair_pixel():
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.floats(-50, 150), st.floats(-50, 150), st.floats(0.01, 400), st.floats(-3.2, 3.2), st.integers(0, 99))
 def test_any_face_in_any_picture(x, y, interocular, roll, seed):
-    """Wherever the points lie, and whatever the colours are."""
+    """Wherever the points lie, and whatever the colors are."""
     rng = np.random.default_rng(seed)
     pixels = np.repeat(np.repeat(rng.uniform(0, 1, (8, 6, 3)), 10, axis=0), 10, axis=1)
     assert_partition(segmented(Image(pixels.astype(np.float32)), landmarks_at(x, y, interocular, roll)))

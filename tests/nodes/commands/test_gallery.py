@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from graphface.nodes.commands.gallery import shipped_scenes
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_picture
 
@@ -83,12 +80,3 @@ class TestGallery:
         said = command("gallery", tmp_path / "taken")
         assert said.code == 2
         assert "taken" in said.err
-
-
-class TestShippedScenes:
-    def test_all_of_them_by_name(self):
-        """Every scene file beside the graphs, sorted: the default of the command."""
-        folder = Path(__file__).resolve().parents[3] / "graphs/scenes"
-        found = shipped_scenes()
-        assert [p.name for p in found] == sorted(p.name for p in folder.glob("*.yaml"))
-        assert len(found) > 10

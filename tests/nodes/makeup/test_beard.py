@@ -1,4 +1,4 @@
-"""Beards in a face that was labelled skin."""
+"""Beards inside a face that was labelled skin."""
 
 from itertools import pairwise
 
@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphface.nodes.makeup.beard import CHIN, shaved
+from graphface.nodes.makeup.beard import CHIN, beard
 from graphface.nodes.makeup.features import features
 from graphface.nodes.types import Image, Landmarks
 
@@ -31,72 +31,74 @@ def chin_of(landmarks):
     return np.s_[y - 5 : y + 6, x - 5 : x + 6]
 
 
-class TestShaved:
-    def test_a_beard_is_no_skin(self, portrait, rng):
-        """Strands all over the chin are taken away; the cheeks' and the forehead's skin stays."""
+class TestBeard:
+    def test_a_beard_is_not_skin(self, portrait, rng):
+        """Strands all over the chin are taken out of the mask; cheeks and forehead stay in it."""
         shading, parts, landmarks = portrait
         chin, skin = chin_of(landmarks), np.ones_like(shading)
         bearded = shading.copy()
         below = int(landmarks.points[17, 1])
         bearded[below:] = strands(rng)[below:]
-        left = shaved(skin, bearded, parts, landmarks)
+        left = beard(skin, bearded, parts, landmarks)
         assert left[chin].max() < 0.1
         assert left[: int(landmarks.points[2, 1]) - 20].min() == 1
 
     def test_beside_a_moustache_alone_the_chin_stays(self, portrait, rng):
-        """Strands on the upper lip are taken away, and nothing below the mouth."""
+        """Strands on the upper lip are taken out of the mask, and nothing below the mouth."""
         shading, parts, landmarks = portrait
         skin, bearded = np.ones_like(shading), shading.copy()
         nose, mouth = (int(landmarks.points[k, 1]) for k in (2, 13))
         bearded[nose:mouth] = strands(rng)[nose:mouth]
-        left = shaved(skin, bearded, parts, landmarks)
+        left = beard(skin, bearded, parts, landmarks)
         assert left[nose:mouth].min() < 0.1
         assert left[chin_of(landmarks)].min() > 0.9
 
-    def test_no_beard_comes_at_a_stroke(self, portrait, rng):
-        """Between too little and enough hair on half a chin the mask goes in small steps, and all the way."""
+    def test_a_beard_fades_in(self, portrait, rng):
+        """Between too little and enough hair on half a chin the mask changes in small steps, from 1 to 0."""
         shading, parts, landmarks = portrait
         bearded = shading.copy()
         middle = int(landmarks.points[17, 0])
         bearded[int(landmarks.points[17, 1]) :, :middle] = strands(rng)[int(landmarks.points[17, 1]) :, :middle]
-        left = [shaved(np.ones_like(shading), bearded, parts, landmarks, cover=c) for c in np.linspace(0.3, 0.9, 241)]
+        left = [
+            beard(np.ones_like(shading), bearded, parts, landmarks, least_share=c) for c in np.linspace(0.3, 0.9, 241)
+        ]
         steps = [float(np.abs(one - other).max()) for one, other in pairwise(left)]
         assert max(steps) < 0.15
         assert left[0].min() < 0.1
         assert left[-1].min() > 0.9
 
     def test_smooth_skin_stays(self, portrait):
-        """Without strands the very mask comes back."""
+        """Without strands the very mask is returned."""
         shading, parts, landmarks = portrait
         skin = np.ones_like(shading)
-        assert shaved(skin, shading, parts, landmarks) is skin
+        assert beard(skin, shading, parts, landmarks) is skin
 
-    def test_a_wrinkle_is_no_beard(self, portrait):
+    def test_a_wrinkle_is_not_a_beard(self, portrait):
         """One line, however dark, does not cover a chin."""
         shading, parts, landmarks = portrait
         skin, wrinkled = np.ones_like(shading), shading.copy()
         wrinkled[int(landmarks.points[199, 1])] = 0.2
-        assert shaved(skin, wrinkled, parts, landmarks) is skin
+        assert beard(skin, wrinkled, parts, landmarks) is skin
 
     def test_strands_elsewhere(self, portrait, rng):
-        """A fringe over the forehead is not looked at."""
+        """A fringe over the forehead is no beard."""
         shading, parts, landmarks = portrait
         skin, fringed = np.ones_like(shading), shading.copy()
         brows = int(landmarks.points[9, 1])
         fringed[:brows] = strands(rng)[:brows]
-        assert shaved(skin, fringed, parts, landmarks) is skin
+        assert beard(skin, fringed, parts, landmarks) is skin
 
     def test_given(self, portrait, rng):
-        """A user's mask is taken as it is."""
+        """A user's mask is returned as it is."""
         _, parts, landmarks = portrait
         mask = np.full((SIZE, SIZE), 0.25, np.float32)
-        assert shaved(np.ones_like(mask), strands(rng), parts, landmarks, mask) is mask
+        assert beard(np.ones_like(mask), strands(rng), parts, landmarks, mask) is mask
 
     def test_beyond_the_frame(self, portrait):
         """A chin outside of the picture has no beard."""
         shading, parts, landmarks = portrait
         skin, far = np.ones_like(shading), Landmarks(landmarks.points + np.float32(5000), "facemesh468")
-        assert shaved(skin, shading, parts, far) is skin
+        assert beard(skin, shading, parts, far) is skin
 
     @settings(max_examples=25, deadline=None)
     @given(
@@ -113,7 +115,7 @@ class TestShaved:
         landmarks = Landmarks(points, "facemesh468")
         shading = (rng.random((height, width)) * dark).astype(np.float32)
         parts = features(Image(np.zeros((height, width, 3), np.float32)), landmarks)
-        left = shaved(np.full((height, width), 0.5, np.float32), shading, parts, landmarks, contrast=contrast)
+        left = beard(np.full((height, width), 0.5, np.float32), shading, parts, landmarks, contrast=contrast)
         assert np.isfinite(left).all()
         assert left.min() >= 0
         assert left.max() <= 0.5

@@ -1,4 +1,4 @@
-"""Hair over a reference's face that was labelled skin."""
+"""Loose hair over the face that was labelled skin."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphface.nodes.makeup.features import features
-from graphface.nodes.makeup.loose_hair import uncovered
+from graphface.nodes.makeup.loose_hair import loose_hair
 from graphface.nodes.types import Image, Landmarks, Segmentation
 
 HAIR, SKIN = (0.25, 0.18, 0.1), (0.85, 0.7, 0.62)
@@ -28,12 +28,12 @@ def _labels(hair):
     return Segmentation(face=1 - hair, hair=hair, background=np.zeros_like(hair))
 
 
-class TestUncovered:
-    def test_a_strand_that_goes_on_into_hair(self, portrait):
-        """What has the hair's color and touches it is no skin; skin stays."""
+class TestLooseHair:
+    def test_a_strand_connected_to_hair(self, portrait):
+        """What has the hair's color and touches it is not skin; skin stays."""
         photo, labels, parts, landmarks = portrait
         free = parts.eyes + parts.mouth + parts.lips + parts.lids + parts.brows == 0
-        left = uncovered(labels.face, photo, labels, parts, landmarks)
+        left = loose_hair(labels.face, photo, labels, parts, landmarks)
         strand = np.zeros_like(free)
         strand[:, 32:46] = True
         assert left[strand & free].mean() < 0.05
@@ -44,26 +44,26 @@ class TestUncovered:
         photo, labels, parts, landmarks = portrait
         pixels = photo.pixels.copy()
         pixels[60:70, 120:180] = HAIR
-        left = uncovered(labels.face, photo.with_pixels(pixels), labels, parts, landmarks)
+        left = loose_hair(labels.face, photo.with_pixels(pixels), labels, parts, landmarks)
         assert left[:, 70:].min() == 1
 
     def test_hair_like_skin(self, portrait):
-        """Where hair and skin have one color nothing is told: the very mask comes back."""
+        """Where hair and skin have one color they cannot be told apart: the very mask is returned."""
         photo, labels, parts, landmarks = portrait
         plain = photo.with_pixels(np.full_like(photo.pixels, 0.5))
-        assert uncovered(labels.face, plain, labels, parts, landmarks) is labels.face
+        assert loose_hair(labels.face, plain, labels, parts, landmarks) is labels.face
 
     def test_no_hair(self, portrait):
-        """Without labelled hair nothing is learnt, and nothing taken away."""
+        """Without labelled hair there is no color model, and nothing is taken out."""
         photo, _, parts, landmarks = portrait
         bald = _labels(np.zeros((200, 200), np.float32))
-        assert uncovered(bald.face, photo, bald, parts, landmarks) is bald.face
+        assert loose_hair(bald.face, photo, bald, parts, landmarks) is bald.face
 
-    def test_a_users_mask(self, portrait):
-        """A user's mask is taken as it is."""
+    def test_given(self, portrait):
+        """A user's mask is returned as it is."""
         photo, labels, parts, landmarks = portrait
         mine = np.full((200, 200), 0.7, np.float32)
-        assert uncovered(labels.face, photo, labels, parts, landmarks, mine) is mine
+        assert loose_hair(labels.face, photo, labels, parts, landmarks, mine) is mine
 
     @settings(max_examples=30, deadline=None)
     @given(size=st.tuples(st.integers(1, 40), st.integers(1, 40)), eyes=st.floats(0, 60), seed=st.integers(0, 99))
@@ -75,7 +75,7 @@ class TestUncovered:
         points[33, :2], points[263, :2] = (0, 0), (eyes, 0)
         landmarks = Landmarks(points, "facemesh468")
         labels = _labels((random.random(size) > 0.5).astype(np.float32))
-        left = uncovered(labels.face, photo, labels, features(photo, landmarks), landmarks)
+        left = loose_hair(labels.face, photo, labels, features(photo, landmarks), landmarks)
         assert np.isfinite(left).all()
         assert (left >= 0).all()
         assert (left <= labels.face).all()

@@ -52,7 +52,7 @@ class TestFace:
         assert face(surface_of(coverage), landmarks_with(20))[30, 0] == 1
 
     def test_empty_mesh_warns(self):
-        """No coverage: an empty mask, said."""
+        """No coverage: an empty mask and a warning."""
         with pytest.warns(GraphfaceWarning, match="covers no pixel"):
             assert not face(surface_of(np.zeros((5, 5))), landmarks_with(3)).any()
 

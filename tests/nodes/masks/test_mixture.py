@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from graphface.nodes.masks.mixture import fit_mixture
+from graphface.nodes.masks.mixture import fit_mixture, with_lightness_spread
 
 
 class TestFitMixture:
@@ -37,7 +37,7 @@ class TestFitMixture:
         assert np.exp(mixture.log_likelihood(x[:, None])).sum() * (x[1] - x[0]) == pytest.approx(1, abs=1e-3)
 
     def test_no_samples_no_mixture(self):
-        """Nothing to learn from is said by None."""
+        """Without samples there is no mixture."""
         assert fit_mixture(np.zeros((0, 3))) is None
         assert fit_mixture(np.zeros((5, 3)), np.zeros(5)) is None
         assert fit_mixture(np.full((5, 3), np.nan)) is None
@@ -70,3 +70,12 @@ class TestFitMixture:
         far = mixture.log_likelihood(np.float32([[1e3, 0, 0], [1e6, 0, 0]]))
         assert np.isfinite(far).all()
         assert far[1] < far[0] < 0
+
+
+class TestWithLightnessSpread:
+    def test_first_feature_only(self, rng):
+        """The variance of the first feature grows by the square of the spread."""
+        mixture = fit_mixture(rng.normal(0, 0.1, (100, 3)), components=1)
+        wider = with_lightness_spread(mixture, 0.5)
+        added = wider.covariances - mixture.covariances
+        np.testing.assert_allclose(added[0], np.diag([0.25, 0, 0]), atol=1e-12)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphface.nodes.masks.features import features
 from graphface.nodes.masks.texture import DIRECTIONS, mr8, oriented
 
 
@@ -49,19 +48,3 @@ class TestMr8:
     def test_tiny_pictures(self, shape, bank):
         """A picture smaller than the kernels has finite responses."""
         assert np.isfinite(mr8(np.full(shape, 0.5, np.float32), bank)).all()
-
-
-class TestFeatures:
-    @pytest.mark.parametrize("space", ["lab", "rgb", "ycrcb", "hsv"])
-    def test_finite_for_anything(self, space, rng):
-        """Holes and values out of range are put right; colors differ by about one at most."""
-        pixels = rng.uniform(-1, 2, (12, 12, 3)).astype(np.float32)
-        pixels[0, 0], pixels[1, 1] = np.nan, np.inf
-        found = features(pixels, space=space)
-        assert found.shape == (12, 12, 11)
-        assert np.isfinite(found).all()
-        assert np.abs(found).max() < 3
-
-    def test_color_alone(self, rng):
-        """Without texture there are three features."""
-        assert features(rng.uniform(0, 1, (4, 4, 3)).astype(np.float32), kind="color").shape == (4, 4, 3)

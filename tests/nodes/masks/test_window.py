@@ -1,4 +1,4 @@
-"""The part of a photo that is looked at."""
+"""The window about a face."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ class TestWindowAbout:
         assert window.height * window.width < 40_000
 
     def test_there_and_back(self):
-        """A map shrunk and enlarged again lies where it was."""
+        """A map that is downsampled and upsampled again lies where it was."""
         window = window_about(landmarks_at(300, 300, 80), (600, 600), 40)
         x = np.broadcast_to(np.arange(600, dtype=np.float32), (600, 600))
-        back = window.enlarged(window.shrunk(x), (600, 600), beyond=-1)
+        back = window.upsampled(window.downsampled(x), (600, 600), outside=-1)
         rows, columns = window.part
         inner = np.s_[rows.start + 5 : rows.stop - 5, columns.start + 5 : columns.stop - 5]
         np.testing.assert_allclose(back[inner], x[inner], atol=0.6)
-        np.testing.assert_allclose(window.shrunk(x)[0], window.positions()[0][0], atol=0.6)
+        np.testing.assert_allclose(window.downsampled(x)[0], window.positions()[0][0], atol=0.6)

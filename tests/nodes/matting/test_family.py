@@ -1,4 +1,4 @@
-"""What every choice of matting promises."""
+"""What every method of matting promises."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class TestFamily:
         assert alphas.max() <= 1
 
     def test_labels_stay(self, matting, head):
-        """On a picture with clear colors the likeliest labels are the true ones nearly everywhere."""
+        """On a picture with clear colors the most likely labels are the true ones nearly everywhere."""
         assert (stacked(matting(*head[:3])).argmax(axis=0) == head[3]).mean() > 0.985
 
     def test_node(self, matting, head):
@@ -54,7 +54,7 @@ class TestFamily:
 
     @pytest.mark.parametrize("color", [0.0, 0.5, 1.0, np.nan])
     def test_flat_color(self, matting, color, head):
-        """A picture of one color, or of none, tells nothing: alphas still are a partition."""
+        """On a picture of one color, or of NaN, alphas are a partition."""
         flat = Image(np.full((160, 160, 3), color, np.float32))
         alphas = stacked(matting(flat, *head[1:3]))
         np.testing.assert_allclose(alphas.sum(axis=0), 1, atol=1e-5)
@@ -62,20 +62,20 @@ class TestFamily:
 
     @pytest.mark.parametrize("label", [0, 1, 2])
     def test_one_label_everywhere(self, matting, label, head):
-        """Without a border there is nothing to do."""
+        """Without a border the labels are unchanged."""
         full = Segmentation(*(np.full((160, 160), float(k == label), np.float32) for k in range(3)))
         np.testing.assert_allclose(stacked(matting(head[0], full, head[2])), stacked(full), atol=1e-5)
 
     @pytest.mark.parametrize("shape", [(1, 1), (2, 7), (5, 5)])
     def test_tiny_pictures(self, matting, shape, rng):
-        """Pictures smaller than any window are answered too."""
+        """Pictures smaller than a window give a partition, too."""
         photo = Image(rng.uniform(0, 1, (*shape, 3)).astype(np.float32))
         labels = soft(rng.integers(0, 3, shape), 0.5)
         alphas = stacked(matting(photo, labels, landmarks_at(2, 2, 3)))
         np.testing.assert_allclose(alphas.sum(axis=0), 1, atol=1e-5)
 
     def test_swappable(self, matting, head):
-        """Each can stand in for each other in a graph."""
+        """Each can replace each other in a graph."""
         registry = default_registry()
         names = {o.name for o in registry.alternatives(registry.operator("matting.guided"))}
         assert names == {"matting.none", "matting.closed_form", "matting.knn"}
@@ -83,7 +83,7 @@ class TestFamily:
 
 @pytest.mark.parametrize("matting", [guided, closed_form])
 def test_follows_the_photo(matting):
-    """A border drawn two pixels off moves to where the colors change."""
+    """A border that is two pixels off moves to the edge of the colors."""
     pixels = np.zeros((60, 60, 3), np.float32)
     pixels[:, 30:] = (0.9, 0.7, 0.5)
     labels = np.where(np.arange(60) < 32, 2, 0) * np.ones((60, 1), int)

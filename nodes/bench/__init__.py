@@ -1,0 +1,1 @@
+"""Measuring: what graphs give on ground truth and on photographs, and what that costs."""

@@ -1,0 +1,147 @@
+"""Few photos, many pictures: lessons in other light, colors and frames, before other backdrops, with landmarks off."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.random import Generator
+
+from graphface.nodes.learning.label_lessons import Bytes, Lesson
+from graphface.nodes.masks.network_input import mirrored_input, network_input
+from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
+from graphface.nodes.types import FloatArray, Landmarks
+
+UNSURE = 0.25
+"""Weight of a pixel that the teacher cannot tell, beside one that it is sure of."""
+
+
+@dataclass(frozen=True)
+class Example:
+    """`cells` (HEIGHT/2, WIDTH/2, C), what the network sees; `labels` HEIGHT x WIDTH x 3, `weight` HEIGHT x WIDTH."""
+
+    cells: FloatArray
+    labels: FloatArray
+    weight: FloatArray
+
+
+def example(lesson: Lesson, others: Sequence[Lesson], random: Generator) -> Example:
+    """A variation of a lesson; backdrops may come from the others."""
+    landmarks = _misplaced(lesson.landmarks, random)
+    grid = upright_grid(landmarks)
+
+    def sampled(values: Bytes) -> FloatArray:
+        return np.asarray(grid.sampled(values) / 255, np.float32)
+
+    pixels, labels, person = sampled(lesson.pixels), sampled(lesson.labels), sampled(lesson.person)
+    seen = (sampled(lesson.seen) > 0.5) * _frame(random)
+    if random.random() < 0.3:
+        other = others[int(random.integers(len(others)))].plate
+        plate = _plate(other, random)
+        pixels = person[..., None] * pixels + (1 - person[..., None]) * plate
+    pixels = _recolored(pixels, labels, person, random)
+    pixels = _taken_again(_lit(pixels, random), random)
+    input_ = network_input(pixels, np.asarray(seen, np.float32), grid.layout(landmarks))
+    target = np.dstack([labels, np.maximum(1 - labels.sum(axis=2), 0)])
+    target /= np.maximum(target.sum(axis=2, keepdims=True), 1e-6)
+    sure = np.clip(2 * target.max(axis=2) - 1, 0, 1)
+    weight = seen * (UNSURE + (1 - UNSURE) * sure)
+    if random.random() < 0.5:
+        input_, target, weight = mirrored_input(input_), target[:, ::-1], weight[:, ::-1]
+    return Example(
+        np.ascontiguousarray(input_, np.float32),
+        np.ascontiguousarray(target, np.float32),
+        np.ascontiguousarray(weight, np.float32),
+    )
+
+
+def _misplaced(landmarks: Landmarks, random: Generator) -> Landmarks:
+    """Landmarks as another detector may have found them: moved, turned and scaled a little, each with some noise."""
+    points = landmarks.points.copy()
+    unit, middle = landmarks.interocular, points[:, :2].mean(axis=0)
+    turn, grow = random.normal(0, 0.06), np.exp(random.normal(0, 0.04, 2))
+    cos, sin = np.cos(turn), np.sin(turn)
+    moved = (points[:, :2] - middle) * grow @ np.array([[cos, sin], [-sin, cos]])
+    noise = random.normal(0, 0.008, moved.shape) + random.normal(0, 0.03, 2)
+    points[:, :2] = middle + moved + noise * unit
+    return replace(landmarks, points=points.astype(np.float32))
+
+
+def _frame(random: Generator) -> FloatArray:
+    """1 within the frame: the whole grid, a frame that cuts the head somewhere, or one close about the face."""
+    seen = np.ones((HEIGHT, WIDTH), np.float32)
+    kind = random.random()
+    chance, furthest = (0.0, 0.0) if kind < 0.45 else (0.4, 2.8) if kind < 0.75 else (0.85, 1.6)
+    for turned in (seen, seen[::-1], seen.T, seen.T[::-1]):
+        if random.random() < chance:
+            turned[len(turned) // 2 + round(UNIT * random.uniform(0.7, furthest)) :] = 0
+    return seen
+
+
+def _plate(plate: Bytes, random: Generator) -> FloatArray:
+    """A part of another backdrop, or a plain one, HEIGHT x WIDTH x 3."""
+    import cv2
+
+    if random.random() < 0.3:
+        corners = random.uniform(0, 1, 3) + random.normal(0, 0.1, (2, 2, 3))
+        plain = cv2.resize(np.clip(corners, 0, 1).astype(np.float32), (WIDTH, HEIGHT), interpolation=cv2.INTER_LINEAR)
+        return np.asarray(plain, np.float32)
+    least = min(plate.shape[:2])
+    size = int(random.integers(least // 2, least + 1))
+    top, left = random.integers(0, least - size + 1, 2)
+    part = np.ascontiguousarray(np.rot90(plate[top : top + size, left : left + size], int(random.integers(4))))
+    return np.asarray(cv2.resize(part, (WIDTH, HEIGHT)) / 255, np.float32)
+
+
+def _recolored(pixels: FloatArray, labels: FloatArray, person: FloatArray, random: Generator) -> FloatArray:
+    """Skin, hair, clothes and backdrop in other colors, each with its own chance."""
+    import cv2
+
+    face, hair = labels[..., 0], labels[..., 1]
+    parts = (
+        (face, 0.3, 10, 6, 0.15),
+        (hair, 0.35, 18, 12, 0.25),
+        (np.maximum(person - face - hair, 0), 0.4, 25, 25, 0.5),
+        (1 - person, 0.3, 25, 20, 0.5),
+    )
+    chosen = [part for part in parts if random.random() < part[1]]
+    if not chosen:
+        return pixels
+    lab = cv2.cvtColor(np.clip(pixels, 0, 1), cv2.COLOR_RGB2Lab)
+    for mask, _, lightness, hue, contrast in chosen:
+        if not mask.any():
+            continue
+        middle = (lab * mask[..., None]).sum(axis=(0, 1)) / max(float(mask.sum()), 1.0)
+        new = middle + random.normal(0, 1, 3) * (lightness, hue, hue)
+        changed = new + (lab - middle) * np.exp(random.normal(0, contrast))
+        lab += mask[..., None] * (changed - lab).astype(np.float32)
+    lab[..., 0] = np.clip(lab[..., 0], 0, 100)
+    return np.asarray(cv2.cvtColor(lab.astype(np.float32), cv2.COLOR_Lab2RGB), np.float32)
+
+
+def _lit(pixels: FloatArray, random: Generator) -> FloatArray:
+    """Another exposure, white balance and contrast; light that falls off across the picture, sometimes colored."""
+    across = np.linspace(-1, 1, pixels.shape[1], dtype=np.float32)[None, :, None]
+    down = np.linspace(-1, 1, pixels.shape[0], dtype=np.float32)[:, None, None]
+    slopes = random.normal(0, 0.3, (2, 1)) * np.ones(3)
+    if random.random() < 0.15:
+        slopes = slopes + random.normal(0, 0.5, (2, 3))
+    gain = random.normal(0, 0.15) + random.normal(0, 0.08, 3)
+    light = np.exp(across * slopes[0] + down * slopes[1] + gain).astype(np.float32)
+    power = np.float32(np.exp(random.normal(0, 0.25)))
+    return np.asarray(np.clip(np.clip(pixels, 0, 1) ** power * light, 0, 1), np.float32)
+
+
+def _taken_again(pixels: FloatArray, random: Generator) -> FloatArray:
+    """By another camera: grey, blurred, noisy."""
+    import cv2
+
+    if random.random() < 0.12:
+        grey = pixels.mean(axis=2, keepdims=True)
+        pixels = grey + random.uniform(0, 0.3) * (pixels - grey)
+    if random.random() < 0.25:
+        pixels = np.asarray(cv2.GaussianBlur(pixels, (0, 0), random.uniform(0.3, 1.2)), np.float32)
+    if random.random() < 0.3:
+        pixels = pixels + random.normal(0, random.uniform(0, 0.04), pixels.shape).astype(np.float32)
+    return np.clip(pixels, 0, 1).astype(np.float32)
