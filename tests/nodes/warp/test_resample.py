@@ -1,9 +1,12 @@
-"""The reference's layers at the input's pixels."""
+"""The reference's photo, maps and detail map at the input's pixels."""
+
+from __future__ import annotations
 
 import numpy as np
 
 from graphface.nodes.types import Correspondence, DetailMap, Image
 from graphface.nodes.warp import resample
+from graphface.nodes.warp.mesh import mesh as correspond
 
 
 def shifted(size: int, dx: float, dy: float) -> Correspondence:
@@ -13,6 +16,17 @@ def shifted(size: int, dx: float, dy: float) -> Correspondence:
 
 
 class TestPhoto:
+    def test_mirrored_values_stand_in(self, make_face):
+        """What a turned reference hides comes from its other half: no value of the picture's edge is left."""
+        _, _, mesh, surface = make_face()
+        photo, _, other, other_surface = make_face(yaw=70)
+        found = correspond(surface, mesh, other_surface, other)
+        assert np.isfinite(resample.photo(photo, found).pixels).all()
+        alone = Correspondence(found.places, found.inside, found.valid, found.size)
+        changed = np.abs(resample.photo(photo, found).pixels - resample.photo(photo, alone).pixels).max(axis=2)
+        assert changed[found.mirrored_valid == 0].max() == 0
+        assert changed[found.mirrored_valid > 0.5].mean() > 0.01
+
     def test_keeps_the_encoding(self, rng):
         """Pixels are resampled as they are encoded; alpha is dropped."""
         photo = Image(rng.random((8, 8, 3), np.float32), alpha=np.ones((8, 8), np.float32), encoding="linear")
@@ -23,7 +37,7 @@ class TestPhoto:
 
 class TestDetail:
     def test_every_part_of_a_detail_map(self, rng):
-        """Offset and gain are both fetched; a part that is not there stays away."""
+        """Offset and gain are both resampled; a part that is not there stays away."""
         offset, gain = (rng.random((8, 8, 3), np.float32) for _ in range(2))
         moved = resample.detail(DetailMap(offset, gain), shifted(8, 1, 0))
         np.testing.assert_allclose(moved.offset[:, :7], offset[:, 1:], atol=1e-6)
@@ -33,7 +47,7 @@ class TestDetail:
 
 class TestMask:
     def test_stays_a_mask(self):
-        """Cubic interpolation overshoots at an edge; a mask fetched by it does not leave 0..1."""
+        """Cubic interpolation overshoots at an edge; a mask resampled by it does not leave 0..1."""
         step = np.zeros((16, 16), np.float32)
         step[:, 8:] = 1
         got = resample.mask(step, shifted(16, 0.5, 0))
