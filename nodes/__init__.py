@@ -19,7 +19,7 @@ _MODULES = {
     "regions": "nine",
     "intrinsic": "intensity retinex multiscale_retinex bilateral log_tv l1_flatten bell2014",
     "albedo": "shadow_color",
-    "metrics": "operators",
+    "metrics": "psnr si_psnr ssim ms_ssim dssim si_mse lmse whdr normal_angle light_angle iou landmark_error",
     "representation": "bundle given",
     "sh": "fit render rotate from_environment to_environment ball",
     "detail": "additive multiplicative none split",

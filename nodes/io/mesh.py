@@ -1,4 +1,4 @@
-"""Meshes for other programs: OBJ, PLY, glTF and GLB, with the photo's face as texture, written by trimesh."""
+"""Files of meshes: OBJ, PLY, glTF and GLB, with a texture, written by trimesh."""
 
 from __future__ import annotations
 
