@@ -17,7 +17,8 @@ from graphface.cache.memory import MemoryTier
 from graphface.errors import RunFailed, UsageError
 from graphface.evaluate.evaluator import Evaluator
 from graphface.facade import Graph, load
-from graphface.graph.request import request
+from graphface.graph.request import Request, request
+from graphface.record import Record
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,6 @@ def differing(graphs: Sequence[Graph]) -> frozenset[str]:
 
 
 def _loaded(source: str | Path, variant: Variant, given: Mapping[str, Any]) -> Graph:
-
     both = dict(given)
     both["replace"] = {**given.get("replace", {}), **variant.replace}
     both["set"] = {**given.get("set", {}), **variant.set}
@@ -151,12 +151,7 @@ def _cell(
     swapped: frozenset[str],
 ) -> Cell:
     asked = request(graph, case, [output])
-    value, failure, records = None, "", []
-    try:
-        result = evaluator.run(asked)
-        value, records = result[output], result.records
-    except RunFailed as error:
-        failure, records = str(error).partition("\n")[0], error.records
+    value, failure, records = _evaluated(evaluator, asked, output)
     ran = {r.key: r.seconds for r in records if r.state == "ran"}
     known.update(ran)
     needed = {asked.key(step.slot): step for step in asked.steps() if asked.key(step.slot) in known}
@@ -175,3 +170,12 @@ def _cell(
         warnings=tuple(f"{r.name}: {w}" for r in records for w in r.warnings),
         failure=failure,
     )
+
+
+def _evaluated(evaluator: Evaluator, asked: Request, output: str) -> tuple[Any, str, list[Record]]:
+    """The output, why there is none, and what became of every node."""
+    try:
+        result = evaluator.run(asked)
+    except RunFailed as error:
+        return None, str(error).partition("\n")[0], error.records
+    return result[output], "", result.records

@@ -46,27 +46,24 @@ def write_sheet(ablation: Ablation, path: Path, *, crop: Box | None = None) -> N
 
 
 def _case_rows(ablation: Ablation, case: int, crop: Box | None) -> list[list[tuple[str, Picture]]]:
+    """A row for the truth, where there is one, and for each variant: the whole, a part enlarged, the difference."""
     declared = ablation.graph.type_of(ablation.graph.targets([ablation.output])[ablation.output])
-    cells = ablation.of_case(case)
+    cells, truth = ablation.of_case(case), ablation.truths[case]
     drawn = [(cell, picture_of(cell.value, declared)) for cell in cells if cell.value is not None]
-    pictures = [picture for _, picture in drawn if picture is not None]
-    truth = ablation.truths[case]
-    true_picture = None if truth is None else picture_of(truth, declared)
+    pictures = [(cell, picture) for cell, picture in drawn if picture is not None]
     if not pictures:
         return [[(f"{cell.variant.name}: {cell.failure or 'no picture'}", _blank())] for cell in cells]
-    box = crop if crop is not None else where_they_differ(pictures)
-    reference = true_picture if true_picture is not None else pictures[0]
+    true_picture = None if truth is None else picture_of(truth, declared)
+    box = crop if crop is not None else where_they_differ([picture for _, picture in pictures])
     rows = []
     if true_picture is not None:
         rows.append([("truth", true_picture), ("", cropped(true_picture, box)), ("", np.full_like(true_picture, 128))])
-    for cell, picture in drawn:
-        if picture is not None:
-            against = "difference from the truth x 4" if true_picture is not None else "difference from the first x 4"
-            rows.append(
-                [(caption(cell), picture), ("", cropped(picture, box)), (against, difference(picture, reference))]
-            )
-    rows += [[(f"{c.variant.name}: {c.failure}", _blank())] for c in cells if c.value is None]
-    return rows
+        against, reference = "difference from the truth x 4", true_picture
+    else:
+        against, reference = "difference from the first x 4", pictures[0][1]
+    for cell, picture in pictures:
+        rows.append([(caption(cell), picture), ("", cropped(picture, box)), (against, difference(picture, reference))])
+    return rows + [[(f"{c.variant.name}: {c.failure}", _blank())] for c in cells if c.value is None]
 
 
 def caption(cell: Cell) -> str:

@@ -78,13 +78,16 @@ def _read(text: str, graph: Graph) -> Swap:
     step = _step(subject, graph)
     if step is not None:
         return Swap("operator", step.name, tuple(_operator(value, step, graph, text) for value in values), text)
+    return _parameter_swap(subject, values, text, graph)
+
+
+def _parameter_swap(subject: str, values: Sequence[str], text: str, graph: Graph) -> Swap:
     name, _, parameter = subject.rpartition(".")
     step = _step(name, graph) if name else None
     if step is None:
-        known = [s.name.rpartition("/")[2] for s in graph.steps]
-        raise UsageError(
-            f"--swap {text!r}: no node {(name or subject)!r}{did_you_mean(nearest_names(name or subject, known))}"
-        )
+        wanted = name or subject
+        near = did_you_mean(nearest_names(wanted, [s.name.rpartition("/")[2] for s in graph.steps]))
+        raise UsageError(f"--swap {text!r}: no node {wanted!r}{near}")
     parameters = [*step.operator.parameters.model_fields, *step.operator.renamed]
     if parameter not in parameters:
         near = did_you_mean(nearest_names(parameter, parameters))

@@ -23,6 +23,7 @@ from graphface.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from graphface.ablation.running import Ablation
     from graphface.facade import Graph
 
 
@@ -56,14 +57,10 @@ def ablate(
     """
     from graphface.ablation import ablate as run_ablation
     from graphface.ablation.figures import metrics_for
-    from graphface.ablation.page import write_page
-    from graphface.ablation.sheet import write_sheet
-    from graphface.ablation.table import as_csv, as_markdown, columns, rows, shown
     from graphface.cache.memory import MemoryTier
     from graphface.cli.options import load_graph
     from graphface.document.flags import read_flag
     from graphface.evaluate.evaluator import Evaluator
-    from graphface.report.terminal import print_table, print_warnings
     from graphface.settings import memory_budget
     from graphface.values.writing import make_folder
 
@@ -95,15 +92,23 @@ def ablate(
         ),
         loading=loading,
     )
+    _show(done, out, box, said)
+
+
+def _show(done: Ablation, out: Path, box: tuple[int, int, int, int] | None, said: list[str]) -> None:
+    """Write the table, the sheet and the page into the folder, and print the table and what went wrong."""
+    from graphface.ablation.page import write_page
+    from graphface.ablation.sheet import write_sheet
+    from graphface.ablation.table import as_csv, as_markdown, columns, rows, shown
+    from graphface.report.terminal import print_table, print_warnings
+
     (out / "table.csv").write_text(as_csv(done), encoding="utf-8")
     (out / "table.md").write_text(as_markdown(done), encoding="utf-8")
     write_sheet(done, out / "sheet.png", crop=box)
     write_page(done, out / "index.html")
     names = columns(done)
-    print_table(
-        ("variant", *(f">{n}" for n in names[1:])),
-        [tuple(shown(row.get(n, "")) for n in names) for row in rows(done)],
-    )
+    header = ("variant", *(f">{name}" for name in names[1:]))
+    print_table(header, [tuple(shown(row.get(name, "")) for name in names) for row in rows(done)])
     print(f"{done.sharing}\nwrote table.csv, table.md, sheet.png and index.html to {out}/")
     failures = [f"{c.variant.name}: {c.failure}" for c in done.cells if c.failure]
     print_warnings([*failures, *dict.fromkeys(w for c in done.cells for w in c.warnings), *said])
@@ -124,8 +129,8 @@ def read_cases(pairs: list[str]) -> list[Mapping[str, Any]]:
             given.setdefault(name, []).append(value)
     counts = {len(values) for values in given.values()} - {1}
     if len(counts) > 1:
-        told = ", ".join(f"{name} {len(values)} times" for name, values in given.items())
-        raise UsageError(f"inputs are given unequally often: {told}")
+        counted = ", ".join(f"{name} {len(values)} times" for name, values in given.items())
+        raise UsageError(f"inputs are given unequally often: {counted}")
     count = counts.pop() if counts else 1
     return [{name: values[i if len(values) > 1 else 0] for name, values in given.items()} for i in range(count)]
 

@@ -17,6 +17,7 @@ module's global counts as a constant replaced at run time.
 from __future__ import annotations
 
 from collections.abc import Callable
+from threading import RLock
 from typing import Any
 
 from graphface.fingerprint.loaded import Watch
@@ -54,5 +55,10 @@ class Fingerprint:
 
 def fingerprint(*functions: Callable[..., Any] | None) -> Fingerprint:
     """The fingerprint of `functions` together (an operator and its `needs` rule); None among them is skipped."""
-    walk = Walk([function for function in functions if function is not None], RESULT_FORMAT)
+    with _one_at_a_time:
+        walk = Walk([function for function in functions if function is not None], RESULT_FORMAT)
     return Fingerprint(walk.digest, tuple(sorted(walk.reached)), tuple(walk.watched))
+
+
+_one_at_a_time = RLock()
+"""What modules say is kept for all threads, and Python 3.11 may fail where two of them parse deep code at once."""

@@ -146,28 +146,33 @@ class Module:
                 self._compare(vars(value), label + ".")
 
     def _departs(self, label: str, value: Any, function: Any) -> bool:
+        """Whether a name holds something else than the file says; imports are noted for later."""
         match self.source.bindings.get(label):
             case ("import", (module, name)):
                 self._imports.append((label, value, module, name))
                 return False
-            case ("literal", stated) if stated or not isinstance(
-                stated, list | dict | set
-            ):  # an empty one is filled in use
+            case ("literal", stated) if stated or not isinstance(stated, list | dict | set):
                 machinery = "." in label and (not isinstance(value, _PLAIN) or isinstance(value, Enum))
                 return not machinery and not _same(stated, value)
             case ("def", decorated):
-                if isinstance(value, type) and (value.__module__, value.__qualname__) == (self.name, label):
-                    return False
-                wrapped = function is not value and isinstance(value, FunctionType)
-                named = isinstance(function, FunctionType) and function.__code__.co_qualname == label
-                if named and (decorated or not wrapped):
-                    return self.place(function) is None or self._replaced(label + "()", function.__defaults__)
-                if not decorated:
-                    return True
+                departs = self._definition_departs(label, value, function, decorated)
+                if departs is not None:
+                    return departs
             case None if label.rpartition(".")[2].startswith("__") and not isinstance(value, FunctionType):
                 return False  # Python's own, some of it written when first used
+        # Computed, or an empty container, which is filled in use.
         submodule = sys.modules.get(f"{self.name}.{label}", MISSING) is value
         return self._replaced(label, value) and not submodule
+
+    def _definition_departs(self, label: str, value: Any, function: Any, decorated: bool) -> bool | None:
+        """The same of a name that a def or class statement binds; None where a decorator made something else of it."""
+        if isinstance(value, type) and (value.__module__, value.__qualname__) == (self.name, label):
+            return False
+        wrapped = function is not value and isinstance(value, FunctionType)
+        named = isinstance(function, FunctionType) and function.__code__.co_qualname == label
+        if named and (decorated or not wrapped):
+            return self.place(function) is None or self._replaced(label + "()", function.__defaults__)
+        return None if decorated else True
 
     def _replaced(self, label: str, value: Any) -> bool:
         """Whether this was another object when the module was first looked at."""

@@ -94,16 +94,8 @@ class Source:
         """Module and names of the import statements in `body`; what it binds is recorded (scope: None in functions)."""
         for node in body:
             match node:
-                case ast.Import(names=aliases):
-                    for alias in aliases:
-                        top = alias.name.partition(".")[0]
-                        self._bind(scope, alias.asname or top, ("import", (alias.name if alias.asname else top, None)))
-                        yield alias.name, ()
-                case ast.ImportFrom(names=aliases):
-                    module = absolute("." * node.level + (node.module or ""), self._package)
-                    for alias in aliases:
-                        self._bind(scope, alias.asname or alias.name, ("import", (module, alias.name)))
-                    yield module, tuple(alias.name for alias in aliases)
+                case ast.Import() | ast.ImportFrom():
+                    yield from self._import(node, scope)
                 case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
                     self._bind(scope, node.name, ("def", bool(node.decorator_list)))
                     inside = isinstance(node, ast.ClassDef) and scope is not None
@@ -119,6 +111,18 @@ class Source:
                     for part in ("body", "orelse", "finalbody", "handlers", "cases"):
                         if part != never and (inner := getattr(node, part, None)):
                             yield from self._read(inner, scope)
+
+    def _import(self, node: ast.Import | ast.ImportFrom, scope: str | None) -> Iterator[tuple[str, tuple[str, ...]]]:
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                top = alias.name.partition(".")[0]
+                self._bind(scope, alias.asname or top, ("import", (alias.name if alias.asname else top, None)))
+                yield alias.name, ()
+            return
+        module = absolute("." * node.level + (node.module or ""), self._package)
+        for alias in node.names:
+            self._bind(scope, alias.asname or alias.name, ("import", (module, alias.name)))
+        yield module, tuple(alias.name for alias in node.names)
 
     def _assign(self, scope: str | None, targets: list[ast.expr], value: ast.expr | None) -> None:
         if scope is None:

@@ -8,6 +8,7 @@ but the operators themselves.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 from typing import Any
 
@@ -52,7 +53,7 @@ class _Wirer:
         operators = {name: self._operator(node) for name, node in self._graph.nodes.items()}
         types = {name: entry.type for name, entry in inputs.items()}
         types |= {name: op.output for name, op in operators.items() if op is not None}
-        slots = {name: slot for slot, name in enumerate([*inputs, *self._order(operators)])}
+        slots = {name: slot for slot, name in enumerate([*inputs, *self._order()])}
         steps = []
         for name in list(slots)[len(inputs) :]:
             operator, node = operators[name], self._graph.nodes[name]
@@ -96,37 +97,20 @@ class _Wirer:
 
     # --- order ------------------------------------------------------------------------------------
 
-    def _order(self, operators: Mapping[str, Operator | None]) -> Iterator[str]:
-        """Node names so that each stands after what it depends on (Kahn); a cycle is a problem."""
+    def _order(self) -> list[str]:
+        """Node names so that each stands after what it depends on; a cycle is a problem."""
         nodes = self._graph.nodes
-        parents = {
-            name: {t.name for w in node.wires.values() for t in w.targets if t.name in nodes}
+        above = {
+            name: {target.name for wire in node.wires.values() for target in wire.targets if target.name in nodes}
             for name, node in nodes.items()
         }
-        children: dict[str, list[str]] = {}
-        for name, above in parents.items():
-            for parent in above:
-                children.setdefault(parent, []).append(name)
-        waiting = {name: len(above) for name, above in parents.items()}
-        ready = [name for name, count in waiting.items() if count == 0]
-        done = 0
-        while done < len(ready):
-            name = ready[done]
-            done += 1
-            for child in children.get(name, ()):
-                waiting[child] -= 1
-                if waiting[child] == 0:
-                    ready.append(child)
-        if done < len(nodes):
-            self._report_cycle({name: above for name, above in parents.items() if waiting[name] > 0})
-            ready += [name for name, count in waiting.items() if count > 0]
-        return iter(ready)
+        try:
+            return list(TopologicalSorter(above).static_order())
+        except CycleError as error:
+            self._report_cycle(error.args[1][1:])
+            return list(nodes)
 
-    def _report_cycle(self, parents: Mapping[str, set[str]]) -> None:
-        import networkx
-
-        graph = networkx.DiGraph((above, name) for name, group in parents.items() for above in group)
-        cycle = [edge[0] for edge in networkx.find_cycle(graph)]
+    def _report_cycle(self, cycle: list[str]) -> None:
         first = min(cycle, key=lambda n: self._graph.nodes[n].place.line)
         start = cycle.index(first)
         path = [*cycle[start:], *cycle[:start], first]
@@ -160,28 +144,25 @@ class _Wirer:
         self, node: FlatNode, port: InputPort, flat: FlatWire, types: Mapping[str, PortType]
     ) -> bool | None:
         """Whether the port gets a list; None where the wire does not fit."""
-        found = [
-            self._checked_type(t, types, flat.place, f"port {port.name!r} of node {node.name!r}") for t in flat.targets
-        ]
-        if any(t is None for t in found):
+        what = f"port {port.name!r} of node {node.name!r}"
+        found = [self._checked_type(target, types, flat.place, what) for target in flat.targets]
+        sources = [source for source in found if source is not None]
+        if len(sources) < len(found):
             return None
         item = next((a.item for a in port.type.alternatives if isinstance(a, ListOf)), None)
-        single = len(found) == 1 and not flat.is_list
-        if single and found[0] is not None and port.type.accepts(found[0]):
+        single = len(sources) == 1 and not flat.is_list
+        if single and port.type.accepts(sources[0]):
             return False
-        if item is not None and all(t is not None and item.accepts(t) for t in found):
+        if item is not None and all(item.accepts(source) for source in sources):
             return True
-        for target, source in zip(flat.targets, found, strict=True):
-            wanted = item if item is not None and not single else port.type
-            if source is not None and not wanted.accepts(source):
+        wanted = item if item is not None and not single else port.type
+        for target, source in zip(flat.targets, sources, strict=True):
+            if not wanted.accepts(source):
                 hint = " (it may be None; the port is not optional)" if source.optional and not wanted.optional else ""
-                self._problem(
-                    f"{target} gives {source}, but port {port.name!r} of node {node.name!r} "
-                    f"({node.use.value}) takes {wanted}{hint}",
-                    flat.place,
-                )
+                message = f"{target} gives {source}, but {what} ({node.use.value}) takes {wanted}{hint}"
+                self._problem(message, flat.place)
                 return None
-        self._problem(f"port {port.name!r} of node {node.name!r} takes one {port.type}, not a list", flat.place)
+        self._problem(f"{what} takes one {port.type}, not a list", flat.place)
         return None
 
     def _checked_type(

@@ -68,6 +68,15 @@ def decode(tensors: Mapping[str, np.ndarray[Any, Any]], structure: Any, annotati
         raise CodecError(f"malformed structure ({type(error).__name__}: {error})") from error
 
 
+_WRITTEN: dict[type, Callable[[Any], Any]] = {
+    int: lambda value: {"int": hex(value)} if value.bit_length() > 1000 else value,
+    float: lambda value: value if np.isfinite(value) else {"float": repr(value)},
+    complex: lambda value: {"complex": [_WRITTEN[float](value.real), _WRITTEN[float](value.imag)]},
+    bytes: lambda value: {"bytes": base64.b64encode(value).decode()},
+}
+"""Numbers and bytes as JSON has them; what it cannot say, as an object with one tag."""
+
+
 class _Encoder:
     def __init__(self, tensors: Tensors) -> None:
         self._tensors = tensors
@@ -77,14 +86,8 @@ class _Encoder:
         kind = type(value)
         if value is None or kind in (bool, str):
             return value
-        if kind is int:
-            return {"int": hex(value)} if value.bit_length() > 1000 else value
-        if kind is float:
-            return value if np.isfinite(value) else {"float": repr(value)}
-        if kind is complex:
-            return {"complex": [self.write(value.real, where), self.write(value.imag, where)]}
-        if kind is bytes:
-            return {"bytes": base64.b64encode(value).decode()}
+        if kind in _WRITTEN:
+            return _WRITTEN[kind](value)
         if isinstance(value, np.ndarray):
             return self._array(value, where)
         if isinstance(value, np.generic):

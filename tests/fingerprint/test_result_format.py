@@ -32,7 +32,7 @@ GUARDED = {
     "graphface.values.port_types:PortType.coerce": "d82125ab228b",
     "graphface.values.frozen:freeze": "fa284a74b616",
     # stored values
-    "graphface.values.codec": "ae3be312811b",
+    "graphface.values.codec": "f27e20f3b041",
     # keys
     "graphface.values.digest": "479ba675fc07",
     "graphface.graph.keys": "42de74559c6a",
