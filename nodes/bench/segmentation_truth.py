@@ -19,7 +19,7 @@ from graphface.nodes.bench.heads import LABELS, LIGHTS, Head, heads_of
 from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.bench.segmentation_graphs import MATTED, MATTINGS, segmentation_graph, unmatted
 from graphface.nodes.masks.label_weights import LabelWeights
-from graphface.nodes.metrics.geometry import iou
+from graphface.nodes.metrics import iou
 from graphface.nodes.types import Segmentation
 
 
