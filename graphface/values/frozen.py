@@ -63,7 +63,8 @@ def freeze(value: Any) -> tuple[np.ndarray, ...]:
         root = buffer_of(array)
         roots[id(root)] = root
         array.flags.writeable = False
-        root.flags.writeable = False
+        if root is not array:
+            root.flags.writeable = False
     return tuple(roots.values())
 
 
