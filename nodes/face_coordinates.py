@@ -1,6 +1,6 @@
-"""Per-pixel face coordinates.
+"""Face coordinates of pixels.
 
-Face coordinates are the model's texture coordinates: the same numbers are the same point on any face, in any pose and
+Face coordinates are the model's texture coordinates. Equal coordinates are the same point on any face, in any pose and
 expression, so two pictures correspond where their coordinates agree (paper, "Face geometry").
 """
 

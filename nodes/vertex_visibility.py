@@ -1,4 +1,4 @@
-"""Which vertices of a mesh the camera sees."""
+"""Visibility of the vertices of a mesh."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from graphface.nodes.types import FloatArray, Mesh, Surface, Visibility
 def vertex_visibility(
     surface: Surface, mesh: Mesh, *, facing: float = 0.2, depth_tolerance: float = 0.05
 ) -> Visibility:
-    """How far the camera sees each vertex, float32 (V,), 0 to 1; see `surface.visibility`."""
+    """How visible each vertex is, float32 (V,), 0 to 1; see `surface.visibility`."""
     turned = np.clip(facing_camera(mesh) / facing, 0, 1)
     return np.asarray(unoccluded(surface, mesh, depth_tolerance) * turned, np.float32)
 
@@ -44,7 +44,7 @@ def vertex_pixels(mesh: Mesh, shape: tuple[int, ...]) -> tuple[NDArray[np.intp],
 def facing_camera(mesh: Mesh) -> FloatArray:
     """Cosine between each vertex's normal and the direction to the camera: float32 (V,)."""
     nearness = mesh.camera.nearness
-    # The camera stands at (0, 0, 1 / nearness); scaled by nearness, infinitely far away is no special case.
+    # The camera is at (0, 0, 1 / nearness); times nearness, infinite distance is no special case.
     towards = np.array([0, 0, 1]) - nearness * mesh.vertices.astype(np.float64)
     towards /= np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), 1e-9)
     return np.asarray(np.einsum("vc,vc->v", mesh.normals, towards), np.float32)
