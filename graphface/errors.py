@@ -61,7 +61,7 @@ class DeclarationError(UsageError, TypeError):
         self.operator = operator
         self.file = file
         self.line = line
-        self.wrong = list(wrong)
+        self.wrong: list[WrongArgument] = list(wrong)
         told = "; ".join(str(argument) for argument in self.wrong)
         super().__init__(f"{file}:{line}: operator {operator!r}: {told}")
 
@@ -73,8 +73,8 @@ class UnknownName(UsageError, LookupError):
 
     def __init__(self, name: str, known: Iterable[str]) -> None:
         self.name = name
-        self.known = sorted(known)
-        self.nearest = nearest_names(name, self.known)
+        self.known: list[str] = sorted(known)
+        self.nearest: list[str] = nearest_names(name, self.known)
         super().__init__(f"unknown {self.kind} {name!r}{did_you_mean(self.nearest)}")
 
     def __str__(self) -> str:
@@ -92,8 +92,8 @@ class UnknownOperator(UnknownName):
 
     def __init__(self, name: str, known: Iterable[str], why: str = "") -> None:
         super().__init__(name, known)
-        self.reason = f"unknown operator {name!r}{f': {why}' if why else ''}"
-        self.args = (f"{self.reason}{did_you_mean(self.nearest)}",)
+        self.reason: str = f"unknown operator {name!r}{f': {why}' if why else ''}"
+        self.args: tuple[str, ...] = (f"{self.reason}{did_you_mean(self.nearest)}",)
 
 
 class UnknownType(UnknownName):
@@ -119,7 +119,7 @@ class DocumentError(UsageError):
     """A graph, or another file that people write, is wrong; `problems` has every mistake found, not only the first."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
-        self.problems = list(problems)
+        self.problems: list[Problem] = list(problems)
         super().__init__("\n".join(str(p) for p in self.problems))
 
 
@@ -129,7 +129,7 @@ class InputError(UsageError):
     def __init__(self, name: str, reason: str, nearest: Sequence[str] = ()) -> None:
         self.name = name
         self.reason = reason
-        self.nearest = list(nearest)
+        self.nearest: list[str] = list(nearest)
         super().__init__(f"{name!r}: {reason}{did_you_mean(self.nearest)}")
 
 
@@ -158,7 +158,7 @@ class NodeError(RunError):
         self.place = place
         self.reason = reason
         self.inputs = inputs
-        self.files = list(files)
+        self.files: list[str] = list(files)
         self.code = code
         where = f"{place}: " if place is not None else ""
         lines = [f"{where}node {node!r} ({operator}) failed: {reason}"]
@@ -181,11 +181,11 @@ class RunFailed(RunError):
     def __init__(
         self, failures: Sequence[NodeError], finished: dict[str, object], records: Sequence[Record] = ()
     ) -> None:
-        self.failures = list(failures)
+        self.failures: list[NodeError] = list(failures)
         self.finished = finished
-        self.records = list(records)
+        self.records: list[Record] = list(records)
         super().__init__("\n".join(str(f) for f in self.failures))
-        self.__cause__ = self.failures[0].__cause__ if self.failures else None
+        self.__cause__: BaseException | None = self.failures[0].__cause__ if self.failures else None
 
 
 class UnreadableFile(UsageError):
@@ -193,7 +193,7 @@ class UnreadableFile(UsageError):
 
     def __init__(self, path: Path | str, reason: str) -> None:
         super().__init__(f"{path}: {reason}")
-        self.path = Path(path)
+        self.path: Path = Path(path)
         self.reason = reason
 
 
@@ -202,7 +202,7 @@ class UnwritableFile(RunError):
 
     def __init__(self, path: Path | str, reason: str) -> None:
         super().__init__(f"{path}: {reason}")
-        self.path = Path(path)
+        self.path: Path = Path(path)
         self.reason = reason
 
 

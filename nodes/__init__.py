@@ -19,7 +19,7 @@ _MODULES = {
     "regions": "nine",
     "intrinsic": "intensity retinex multiscale_retinex bilateral log_tv l1_flatten bell2014",
     "albedo": "shadow_color",
-    "metrics": "operators",
+    "metrics": "psnr si_psnr ssim ms_ssim dssim si_mse lmse whdr normal_angle light_angle iou landmark_error",
     "representation": "bundle given",
     "sh": "fit render rotate from_environment to_environment ball",
     "detail": "additive multiplicative none split",
@@ -83,7 +83,6 @@ _FILES = {
     "Gain": "GAIN",
     "Image": "IMAGE",
     "Judgements": "JUDGEMENTS",
-    "LabelWeights": "LABEL_WEIGHTS",
     "Landmarks": "LANDMARKS",
     "Mask": "MASK",
     "Mesh": "MESH",
@@ -98,7 +97,7 @@ _FILES = {
 }
 """What reads and writes the types that files can hold: constants of `graphface.nodes.io.files`."""
 
-pack = Pack(
+pack: Pack = Pack(
     name="graphface",
     graphs="graphface.graphs",
     assets="graphface.nodes.landmarks.weights:ASSETS graphface.nodes.masks.weights:ASSETS",
@@ -111,6 +110,9 @@ pack = Pack(
         "LabelWeights": "graphface.nodes.masks.label_weights:LabelWeights",
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
     },
-    files={name: f"graphface.nodes.io.files:{constant}" for name, constant in _FILES.items()},
+    files={
+        **{name: f"graphface.nodes.io.files:{constant}" for name, constant in _FILES.items()},
+        "LabelWeights": "graphface.nodes.masks.files:LABEL_WEIGHTS",
+    },
     schemas={"scene": "graphface.nodes.types:Scene"},
 )

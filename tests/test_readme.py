@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from graphface import load
+from graphface import DocumentError, load
 from graphface.nodes.types import Image
 from graphface.testing import check_node
 
@@ -80,3 +80,15 @@ class TestPackage:
         )
         assert (done.returncode, done.stderr) == (0, "")
         assert "Blur a photo; sigma in pixels." in done.stdout
+
+
+class TestScene:
+    def test_error(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        """A wrong scene is told what the README shows."""
+        monkeypatch.chdir(tmp_path)
+        lines = ["doc: Lamps.", "ambient: 0.1", "lights:", "  - {type: spott, azimuth: 60, cone: 120}"]
+        Path("night.yaml").write_text("\n".join(lines))
+        with pytest.raises(DocumentError) as caught:
+            load("relight").bind({"scene": "night.yaml"})
+        shown = "".join(f"    {line}\n" for line in f"error: {caught.value}".splitlines())
+        assert shown in README.read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphface import ArrayType, Files, Pack, Registry, node
+from graphface import ArrayType, Files, GraphfaceWarning, Pack, Registry, node
 from graphface.errors import PluginError, UnknownOperator, UnknownType
 from graphface.values.port_types import ANY, ListOf, port_type
 
@@ -244,3 +244,11 @@ class TestFiles:
         assert other.files(Sound) is other.files(_WAVE) is mine
         assert other.extended().files(Sound) is mine
         assert sounds.files(Sound) is SOUND_FILES
+
+
+class TestSchemas:
+    def test_of_packs(self) -> None:
+        """Kinds of files that packs describe; what cannot be found is left out with a warning."""
+        packs = [Pack("a", {}, schemas={"thing": "toys:Pair", "lost": "toys:Lost"}), Pack("b", {})]
+        with pytest.warns(GraphfaceWarning, match="toys:Lost"):
+            assert list(Registry(packs).schemas()) == ["thing"]

@@ -7,7 +7,7 @@ and calling one would change its key. The label it says is a cosmetic parameter,
 import logging
 import time
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,6 +77,11 @@ def ranged(a: float, *, count: Annotated[int, Field(ge=1, le=8)] = 1, mode: str 
 @node("toy.options")
 def options(*, table: dict[str, Any] | None = None, items: list[Any] | None = None, anything: Any = None) -> str:
     return "options"
+
+
+@node("toy.nested")
+def nested(*, sizes: dict[str, list[int]] | None = None, mode: Literal["hard", "soft"] = "soft") -> str:
+    return "nested"
 
 
 @node("toy.grid")

@@ -64,7 +64,7 @@ class DiskTier:
     """
 
     def __init__(self, folder: Path | str, budget_bytes: int, report: Callable[[str], None] = warn) -> None:
-        self.folder = Path(folder)
+        self.folder: Path = Path(folder)
         self.budget_bytes = budget_bytes
         self._report = report
         self._files = Folder(self.folder)

@@ -51,8 +51,8 @@ class MemoryTier:
     """
 
     def __init__(self, budget: int | None = None) -> None:
-        self.budget = budget if budget is not None else memory_budget()
-        self.bytes = 0
+        self.budget: int = budget if budget is not None else memory_budget()
+        self.bytes: int = 0
         self._held: dict[bytes, _Held] = {}
         self._holders: dict[int, int] = {}
         self._evicted: OrderedDict[bytes, None] = OrderedDict()

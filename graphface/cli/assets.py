@@ -9,7 +9,9 @@ import typer
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
 
-app = typer.Typer(help="List, fetch or locate network weights and other pinned files.", no_args_is_help=True)
+app: typer.Typer = typer.Typer(
+    help="List, fetch or locate network weights and other pinned files.", no_args_is_help=True
+)
 
 
 @app.command("list")

@@ -9,7 +9,7 @@ import typer
 
 from graphface.cli.options import CacheSize, open_cache
 
-app = typer.Typer(help="Show, check or empty a disk cache (the folder of --cache).", no_args_is_help=True)
+app: typer.Typer = typer.Typer(help="Show, check or empty a disk cache (the folder of --cache).", no_args_is_help=True)
 Folder = Annotated[
     Path | None, typer.Option("--cache", metavar="DIR", envvar="GRAPHFACE_CACHE", help="The cache folder.")
 ]

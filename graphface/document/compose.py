@@ -34,6 +34,7 @@ from graphface.errors import DocumentError, Problem, nearest_names
 from graphface.place import Place
 
 MAX_NODES = 2_000_000
+"""Graphs in graphs multiply what their files say."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,6 @@ class _Composer:
         scope = self._expand(document, "", None, {}, flags, ())
         self._check_choices()
         return Composition(
-            source=document.source,
             path=document.path,
             name=document.name or (document.path.stem if document.path else "graph"),
             doc=document.doc,
@@ -87,7 +87,6 @@ class _Composer:
             variants=sorted(self._declared["variant"]),
             profiles=sorted(self._declared["profile"]),
             scope=scope,
-            files=self._files.paths,
             problems=self._problems,
         )
 
@@ -187,7 +186,8 @@ class _Composer:
         scope.graphs[node.name] = self._expand(inner, prefix, scope, node.wires, pending, chain)
 
     def _check_input_names(self, node: NodeEntry, inner: Document, constants: Mapping[str, Setting]) -> None:
-        for port, entry in [*node.wires.items(), *constants.items()]:
+        entries: list[tuple[str, Wire | Setting]] = [*node.wires.items(), *constants.items()]
+        for port, entry in entries:
             if port not in inner.inputs and port not in node.carried:
                 self._problem(
                     f"graph {node.name!r} ({inner.path and inner.path.name}) has no input {port!r} "

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from graphface.document.located import Map, Seq, file_source, parse, plain
+from graphface.document.located import Map, Seq, file_source, parse
 from graphface.errors import Problem, nearest_names
 from graphface.place import Place, Source
 
@@ -34,8 +34,7 @@ _NODE = ("use", "in", "with", "doc")
 class Setting:
     """A value and the place, or the flag, that set it.
 
-    The default of an input is kept with its positions (`Map`, `Seq`) for types whose mistakes are shown where they are;
-    `plain` leaves them away.
+    A mapping or list keeps its positions inside (`Map`, `Seq`) until it is used, when `plain` leaves them away.
     """
 
     value: Any
@@ -85,9 +84,8 @@ class InputEntry:
 
 @dataclass
 class Document:
-    """One graph file."""
+    """One graph file; `path` is None for a text."""
 
-    source: Source
     path: Path | None
     name: str = ""
     doc: str = ""
@@ -106,13 +104,13 @@ def read_document(path: Path) -> tuple[Document, list[Problem]]:
         UnreadableFile: there is no such file, it is not UTF-8 text, or it is too large.
         DocumentError: it is not YAML.
     """
-    return parse_document(file_source(path), path)
+    return parse_document(file_source(path))
 
 
-def parse_document(source: Source, path: Path | None = None) -> tuple[Document, list[Problem]]:
+def parse_document(source: Source) -> tuple[Document, list[Problem]]:
     """As `read_document`, from a text."""
     tree, problems = parse(source)
-    document = Document(source, path)
+    document = Document(source.path)
     if not isinstance(tree, Map):
         return document, [*problems, Problem("a graph file is a mapping that begins with 'graphface: 1'", source.start)]
     return document, problems + list(_read_top(tree, document))
@@ -133,7 +131,7 @@ def read_overlay(entries: Any, place: Place, *, settings_only: bool) -> tuple[di
         elif not isinstance(body, Map):
             problems.append(Problem(f"expected a mapping for node {name!r}", entries.value_place(name)))
         elif settings_only:
-            node.settings = {key: Setting(plain(value), body.key_place(key)) for key, value in body.items()}
+            node.settings = {key: Setting(value, body.key_place(key)) for key, value in body.items()}
         else:
             problems += _read_node(body, node)
         found[name] = node
@@ -247,7 +245,7 @@ def _read_node(body: Map, node: NodeEntry) -> Iterator[Problem]:
         yield Problem("'in' maps ports to the names plugged into them", body.value_place("in"))
     settings = body.get("with")
     if isinstance(settings, Map):
-        node.settings = {key: Setting(plain(value), settings.key_place(key)) for key, value in settings.items()}
+        node.settings = {key: Setting(value, settings.key_place(key)) for key, value in settings.items()}
     elif settings is not None:
         yield Problem("'with' maps parameters to their values", body.value_place("with"))
 

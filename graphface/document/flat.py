@@ -12,12 +12,12 @@ from pathlib import Path
 from graphface.document.document import InputEntry, Setting
 from graphface.document.references import Scope, Target
 from graphface.errors import Problem
-from graphface.place import Place, Source
+from graphface.place import Place
 
 
 @dataclass(frozen=True)
 class FlatWire:
-    """What is plugged into a port; `broken` where a name in it means nothing, which was told already.
+    """What is plugged into a port; `broken` where a name in it means nothing, which is among the problems already.
 
     `unplugged` where the file says null: it takes away what is plugged in under an old name of the port.
     """
@@ -46,10 +46,9 @@ class FlatNode:
 class Composition:
     """The whole flat graph.
 
-    `problems` is what is wrong so far; wiring adds what it finds, so that all of it is told at once.
+    `problems` is what is wrong so far; wiring adds what it finds, so that all of it is reported together.
     """
 
-    source: Source
     path: Path | None
     name: str
     doc: str
@@ -59,5 +58,4 @@ class Composition:
     variants: list[str]
     profiles: list[str]
     scope: Scope
-    files: list[Path]
     problems: list[Problem]

@@ -54,11 +54,6 @@ class GraphFiles:
         self._problems = problems
         self._read: dict[Path, Document] = {}
 
-    @property
-    def paths(self) -> list[Path]:
-        """Those read, in the order of first use."""
-        return list(self._read)
-
     def load(self, name: str, near: Document, place: Place | None) -> Document | None:
         """The document that a file names, looked for beside the file that says so and then among the shipped graphs.
 

@@ -1,4 +1,4 @@
-"""YAML text to plain data that remembers where every key and value stood.
+"""YAML text to plain data that remembers where every key and value stands.
 
 PyYAML's C parser yields events; the tree is built from them here instead of by `yaml.compose`, for two reasons: depth
 and alias expansion are bounded while reading (a 10-line alias bomb expands to gigabytes, and composing is recursive),
@@ -7,6 +7,7 @@ and scalars follow YAML 1.2's core schema (`on` is a string, `1e0` a number).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
@@ -23,13 +24,13 @@ MAX_ALIASED_VALUES = 100_000
 
 
 class Map(dict[str, Any]):
-    """A YAML mapping that knows where it, its keys and its values stood."""
+    """A YAML mapping that knows where it, its keys and its values stand."""
 
     __slots__ = ("_key_places", "_value_places", "place")
 
     def __init__(self, place: Place) -> None:
         super().__init__()
-        self.place = place
+        self.place: Place = place
         self._key_places: dict[str, Place] = {}
         self._value_places: dict[str, Place] = {}
 
@@ -46,13 +47,13 @@ class Map(dict[str, Any]):
 
 
 class Seq(list[Any]):
-    """A YAML sequence that knows where it and its items stood."""
+    """A YAML sequence that knows where it and its items stand."""
 
     __slots__ = ("_item_places", "place")
 
     def __init__(self, place: Place) -> None:
         super().__init__()
-        self.place = place
+        self.place: Place = place
         self._item_places: list[Place] = []
 
     def item_place(self, index: int) -> Place:
@@ -99,6 +100,17 @@ def parse(source: Source) -> tuple[Any, list[Problem]]:
     except yaml.YAMLError as error:
         raise DocumentError([Problem(f"not YAML: {str(error).splitlines()[0]}", source.start)]) from None
     return builder.root, builder.problems
+
+
+def place_inside(tree: Any, keys: Sequence[str | int]) -> Place | None:
+    """Where the value stands that keys of mappings and lists lead to, as far as they do; None if they lead nowhere."""
+    place = None
+    for key in keys:
+        if isinstance(tree, Map) and key in tree:
+            place, tree = tree.value_place(str(key)), tree[str(key)]
+        elif isinstance(tree, Seq) and isinstance(key, int) and key < len(tree):
+            place, tree = tree.item_place(key), tree[key]
+    return place
 
 
 def plain(value: Any) -> Any:

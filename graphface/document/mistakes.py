@@ -70,6 +70,11 @@ def reason(detail: Mapping[str, Any]) -> str:
     return f"{_expected(detail)}, got {_shown(detail['input'])}"
 
 
+def choices(detail: Mapping[str, Any]) -> list[str]:
+    """The words of which an error of pydantic's says that one was expected: "'hard', 'soft' or 'none'"."""
+    return re.findall(r"'([^']*)'", detail.get("ctx", {}).get("expected", ""))
+
+
 @dataclass(frozen=True)
 class _Mistake:
     """One mistake, and what puts the copy right: another value for `wrong`, or leaving it out where that is None."""
@@ -166,9 +171,8 @@ def _mistake(error: _Error, kinds: Sequence[str]) -> _Mistake:
         expected = f"input should be {' or '.join(kinds)}{what}, got {_shown(detail['input'])}"
     else:
         expected = reason(detail)
-    choices = _quoted(detail.get("ctx", {}).get("expected", ""))
-    nearest = nearest_names(str(at.value), choices, 1)
-    return _Mistake(Problem(f"{at}: {expected}", at.place, tuple(nearest)), *_right_value(error, choices))
+    nearest = nearest_names(str(at.value), choices(detail), 1)
+    return _Mistake(Problem(f"{at}: {expected}", at.place, tuple(nearest)), *_right_value(error))
 
 
 def _wrong_tag(detail: Mapping[str, Any], at: TypedValue) -> _Mistake:
@@ -198,12 +202,12 @@ def _likely(members: Mapping[str, type[BaseModel]], value: Mapping[str, Any]) ->
     return likely if len(likely) <= 3 else []
 
 
-def _right_value(error: _Error, choices: Sequence[str]) -> tuple[Keys, Any]:
+def _right_value(error: _Error) -> tuple[Keys, Any]:
     """A value that is right in place of a wrong one, and where to put it; no keys where none is known."""
     context = error.detail.get("ctx", {})
-    bound = context.get("ge", context.get("le"))
-    if bound is not None or choices:
-        return error.at.keys, bound if bound is not None else choices[0]
+    for right in (context.get("ge"), context.get("le"), *choices(error.detail)):
+        if right is not None:
+            return error.at.keys, right
     if error.at.field is None or holds_models(error.at.field[1].annotation):
         return (), None
     keys, field = error.at.field
@@ -223,11 +227,6 @@ def _expected(detail: Mapping[str, Any]) -> str:
 def _shown(value: Any) -> str:
     text = "nothing" if value is None else repr(plain(value))
     return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
-
-
-def _quoted(text: str) -> list[str]:
-    """The choices in "'hard', 'soft' or 'none'"."""
-    return re.findall(r"'([^']*)'", text)
 
 
 def _copied(value: Any) -> Any:

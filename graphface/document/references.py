@@ -16,7 +16,7 @@ from graphface.place import Place
 
 MAX_NESTING = 32
 MAX_WIRES = 10_000
-"""Into one port, where nested graphs multiply what a file says."""
+"""Into one port, beyond those that a file writes out: lists of lists through nested graphs double at every step."""
 
 Complain = Callable[[str, Place | None, Sequence[str]], None]
 Found = tuple[tuple["Target", ...], bool]
@@ -62,9 +62,7 @@ class References:
                 continue
             targets += [Target(t.name, (*t.fields, *fields)) for t in found[0]]
             is_list = is_list or found[1]
-            if len(targets) > max(
-                MAX_WIRES, len(wire.names or ())
-            ):  # lists of lists through nested graphs double at every step
+            if len(targets) > max(MAX_WIRES, len(wire.names or ())):
                 raise DocumentError([Problem(f"more than {MAX_WIRES:,} wires into one port", wire.place)])
         return None if broken else (tuple(targets), is_list)
 

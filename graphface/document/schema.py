@@ -99,17 +99,15 @@ def _tagged(part: Any, definitions: dict[str, Any]) -> Any:
         return [_tagged(item, definitions) for item in part]
     if not isinstance(part, dict):
         return part
-    found = {key: _tagged(item, definitions) for key, item in part.items() if key not in ("oneOf", "discriminator")}
-    if "discriminator" not in part:
-        return found | ({"oneOf": _tagged(part["oneOf"], definitions)} if "oneOf" in part else {})
+    if "propertyName" not in part.get("discriminator", {}):
+        return {key: _tagged(item, definitions) for key, item in part.items()}
     key, members = part["discriminator"]["propertyName"], part["discriminator"]["mapping"]
     docs = {tag: definitions[to.rpartition("/")[2]].get("description", "") for tag, to in members.items()}
     tags = [{"const": tag, "description": doc.partition("\n")[0]} for tag, doc in docs.items()]
-    rules = [
-        {"if": {"required": [key], "properties": {key: {"const": tag}}}, "then": {"$ref": to}}
-        for tag, to in members.items()
-    ]
-    return found | {"type": "object", "required": [key], "properties": {key: {"anyOf": tags}}, "allOf": rules}
+    said = {"type": "object", "required": [key]}
+    rules = [{"if": said | {"properties": {key: {"const": tag}}}, "then": {"$ref": to}} for tag, to in members.items()]
+    found = {key: item for key, item in part.items() if key not in ("oneOf", "discriminator")}
+    return found | said | {"properties": {key: {"anyOf": tags}}, "allOf": rules}
 
 
 def _node_schema(operators: Iterable[Operator]) -> dict[str, Any]:

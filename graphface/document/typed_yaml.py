@@ -3,9 +3,10 @@
     class Palette(BaseModel):
         colors: tuple[Color, ...]
 
-        @classmethod
-        def from_file(cls, path: Path) -> Palette:
-            return read_yaml(path, cls)
+    def read_palette(path: Path) -> Palette:
+        return read_yaml(path, Palette)
+
+    PALETTE = Files(read=read_palette)  # named in the pack's `files`
 
 Such a file is read as graph files are: YAML 1.2 with positions, all mistakes at once, each with file, line, column, the
 text with a caret, and the nearest valid name.

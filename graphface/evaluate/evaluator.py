@@ -63,10 +63,10 @@ class Evaluator:
     ) -> None:
         self.memory = memory
         self.disk = disk
-        self.threads = max(1, threads)
+        self.threads: int = max(1, threads)
         self.in_flight = in_flight
         self.guard: Guard = guard
-        self.observers = tuple(observers)
+        self.observers: tuple[Observer, ...] = tuple(observers)
         self._finite: dict[int, Any] = {}
 
     def run(self, request: Request, observers: Sequence[Observer] = ()) -> Result:

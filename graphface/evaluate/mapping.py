@@ -35,7 +35,7 @@ class MapFailed(RunError):
     """Some combinations failed; `failures` has each. The others were made."""
 
     def __init__(self, failures: Sequence[Made], total: int) -> None:
-        self.failures = list(failures)
+        self.failures: list[Made] = list(failures)
         self.total = total
         lines = [f"{len(failures)} of {total} combinations failed:"]
         for made in failures[:5]:

@@ -52,11 +52,11 @@ class Hooks:
 
     def __init__(self, observers: Iterable[Observer]) -> None:
         watched = [_Watched(observer) for observer in observers]
-        self.run_started = _overridden(watched, "run_started")
-        self.node_started = _overridden(watched, "node_started")
-        self.node_finished = _overridden(watched, "node_finished")
-        self.run_finished = _overridden(watched, "run_finished")
-        self.any = bool(watched)
+        self.run_started: tuple[Hook, ...] = _overridden(watched, "run_started")
+        self.node_started: tuple[Hook, ...] = _overridden(watched, "node_started")
+        self.node_finished: tuple[Hook, ...] = _overridden(watched, "node_finished")
+        self.run_finished: tuple[Hook, ...] = _overridden(watched, "run_finished")
+        self.any: bool = bool(watched)
 
 
 class _Watched:

@@ -26,6 +26,7 @@ from graphface.cache.memory import MISSING
 from graphface.errors import NodeError, RunFailed
 from graphface.evaluate.calling import Caller, Outcome
 from graphface.evaluate.observe import Hooks
+from graphface.evaluate.task import Task, label
 from graphface.fallback import collect_warnings, collected_warnings, python_warnings
 from graphface.graph.demand import declined_with, demanded, take
 from graphface.graph.keys import Declined
@@ -44,42 +45,6 @@ class Tiers(Protocol):
 
 
 _NOTHING: Declined = MappingProxyType({})
-
-
-class _Task:
-    """One key that is demanded in a run.
-
-    `waiting` counts the values it waits for, `waiters` wait for its own. `sources` are the tasks whose values it reads,
-    `readers` counts those that read its own. `declined` are the lazy ports that its step does without; None while its
-    rule cannot be asked. `heavy` where letting go of its value frees memory.
-    """
-
-    __slots__ = (
-        "declined",
-        "failed",
-        "heavy",
-        "key",
-        "readers",
-        "size",
-        "slot",
-        "sources",
-        "step",
-        "waiters",
-        "waiting",
-    )
-
-    def __init__(self, key: bytes, slot: int, step: Step | None) -> None:
-        self.key = key
-        self.slot = slot
-        self.step = step
-        self.waiting = 0
-        self.waiters: list[_Task] = []
-        self.sources: list[_Task] = []
-        self.readers = 0
-        self.declined: Declined | None = None
-        self.failed = False
-        self.heavy = False
-        self.size = 0
 
 
 class Run:
@@ -107,11 +72,11 @@ class Run:
         self._kept = {self._keys[ref.slot] for ref in request.targets.values()}
         self._values: dict[bytes, Any] = {}
         self._caller = call(self._values)
-        self._tasks: dict[bytes, _Task] = {}
-        self._demanded: list[_Task] = []
-        self._ready: list[_Task] = []
+        self._tasks: dict[bytes, Task] = {}
+        self._demanded: list[Task] = []
+        self._ready: list[Task] = []
         self._undecided = 0
-        self._spent: list[_Task] = []
+        self._spent: list[Task] = []
         self._live = 0
         self._failures: list[NodeError] = []
         self._records: list[Record] = []
@@ -146,13 +111,13 @@ class Run:
 
     # --- demand -----------------------------------------------------------------------------------
 
-    def _task(self, slot: int) -> _Task:
+    def _task(self, slot: int) -> Task:
         """The task of a slot's key, demanded now if it was not before."""
         key = self._keys[slot]
         task = self._tasks.get(key)
         if task is None:
             first = self._first
-            task = self._tasks[key] = _Task(key, slot, self._steps[slot - first] if slot >= first else None)
+            task = self._tasks[key] = Task(key, slot, self._steps[slot - first] if slot >= first else None)
             self._demanded.append(task)
         return task
 
@@ -166,7 +131,7 @@ class Run:
             if value is not MISSING:
                 self._values[task.key] = value
                 task.heavy = True
-                self._tell(Record(self._names[task.slot], operator_name(step), tier, task.key), step, value)
+                self._tell(Record(self._names[task.slot], label(step), tier, task.key), step, value)
                 self._arrived(task)
             elif step is None:
                 self._ready.append(task)
@@ -180,7 +145,7 @@ class Run:
         if self._spent and not self._undecided:
             self._let_go()
 
-    def _await(self, task: _Task, slots: Iterable[int]) -> None:
+    def _await(self, task: Task, slots: Iterable[int]) -> None:
         """Make a task ready, or ask its rule, once every one of these slots has its value."""
         tasks, keys, values = self._tasks, self._keys, self._values
         missing = 0
@@ -198,7 +163,7 @@ class Run:
         if not missing:
             self._proceed(task)
 
-    def _arrived(self, task: _Task) -> None:
+    def _arrived(self, task: Task) -> None:
         """A value is there: tell the tasks that wait for it."""
         for waiter in task.waiters:
             waiter.waiting -= 1
@@ -206,7 +171,7 @@ class Run:
                 self._proceed(waiter)
         task.waiters.clear()
 
-    def _proceed(self, task: _Task) -> None:
+    def _proceed(self, task: Task) -> None:
         """Everything a task waited for is there. Runs only what has not failed meanwhile."""
         if task.failed:
             return
@@ -215,7 +180,7 @@ class Run:
         else:
             self._ready.append(task)
 
-    def _decide(self, task: _Task, step: Step) -> None:
+    def _decide(self, task: Task, step: Step) -> None:
         """All eager inputs are there: ask the rule which lazy ones are wanted."""
         try:
             eager = {a.port: self._caller.argument(a) for a in step.arguments if not a.lazy}
@@ -239,10 +204,10 @@ class Run:
                 self._finish(task, evaluate(task.slot, task.step, task.declined))
 
     def _loop_threads(self) -> None:
-        finished: queue.SimpleQueue[tuple[_Task, Outcome]] = queue.SimpleQueue()
+        finished: queue.SimpleQueue[tuple[Task, Outcome]] = queue.SimpleQueue()
         running = 0
 
-        def work(task: _Task) -> None:
+        def work(task: Task) -> None:
             finished.put((task, self._caller.evaluate(task.slot, task.step, task.declined)))
 
         with ThreadPoolExecutor(self._threads, "graphface", collect_warnings) as pool:
@@ -256,7 +221,7 @@ class Run:
 
     # --- bookkeeping, on the calling thread -------------------------------------------------------
 
-    def _finish(self, task: _Task, outcome: Outcome) -> None:
+    def _finish(self, task: Task, outcome: Outcome) -> None:
         value, error, seconds, cpu, warnings = outcome
         if error is not None:
             if not isinstance(error, NodeError):
@@ -274,7 +239,7 @@ class Run:
                 self._live += task.size
         self._tiers.keep(key, step, value, seconds, arrays)
         name = self._names[task.slot]
-        self._tell(Record(name, operator_name(step), "ran", key, seconds, cpu, task.size, "", warnings), step, value)
+        self._tell(Record(name, label(step), "ran", key, seconds, cpu, task.size, "", warnings), step, value)
         self._arrived(task)
         for source in task.sources:
             source.readers -= 1
@@ -292,11 +257,11 @@ class Run:
                 self._live -= task.size
         self._spent.clear()
 
-    def _fail(self, task: _Task, error: NodeError, seconds: float = 0.0) -> None:
+    def _fail(self, task: Task, error: NodeError, seconds: float = 0.0) -> None:
         self._failures.append(error)
         self._stop(task, "failed", error.reason, seconds)
 
-    def _stop(self, task: _Task, state: State, reason: str = "", seconds: float = 0.0) -> None:
+    def _stop(self, task: Task, state: State, reason: str = "", seconds: float = 0.0) -> None:
         """Note that a task has no value, and that those waiting for it never will."""
         stack = [(task, state, reason, seconds)]
         while stack:
@@ -307,11 +272,11 @@ class Run:
             step = current.step
             if current.declined is None and step is not None:
                 self._undecided -= 1
-            self._tell(Record(self._names[current.slot], operator_name(step), now, current.key, took, reason=why), step)
+            self._tell(Record(self._names[current.slot], label(step), now, current.key, took, reason=why), step)
             stack.extend((waiter, "blocked", "", 0.0) for waiter in current.waiters)
             current.waiters.clear()
 
-    def _tell_declined(self, task: _Task, step: Step) -> None:
+    def _tell_declined(self, task: Task, step: Step) -> None:
         for port, reason in (task.declined or {}).items():
             name = f"{step.name}.{port}"
             self._tell(Record(name, step.operator.name, "declined", task.key, reason=reason), step)
@@ -320,7 +285,3 @@ class Run:
         self._records.append(record)
         for hook in self._on_finish:
             hook(record, step, value)
-
-
-def operator_name(step: Step | None) -> str:
-    return step.operator.name if step is not None else "input"

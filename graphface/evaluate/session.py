@@ -51,9 +51,9 @@ class Session:
         history: int = 4,
     ) -> None:
         self.graph = graph
-        self.draft = draft if draft is not None else graph
-        self.evaluator = evaluator if evaluator is not None else Evaluator(memory=MemoryTier())
-        self.edits = 0
+        self.draft: WiredGraph = draft if draft is not None else graph
+        self.evaluator: Evaluator = evaluator if evaluator is not None else Evaluator(memory=MemoryTier())
+        self.edits: int = 0
         self._shrink = dict(shrink or {})
         self._given: dict[str, Any] = {}
         self._full: dict[str, Bound] = {}

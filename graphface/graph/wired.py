@@ -41,7 +41,7 @@ class WiredGraph:
         self.inputs: Mapping[str, GraphInput] = structure.inputs
         self.steps: tuple[Step, ...] = structure.steps
         self.outputs: Mapping[str, Ref] = structure.outputs
-        self.input_names = tuple(structure.inputs)
+        self.input_names: tuple[str, ...] = tuple(structure.inputs)
         self._structure = structure
 
     def __repr__(self) -> str:

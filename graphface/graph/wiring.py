@@ -15,6 +15,8 @@ from pydantic import BaseModel, ValidationError
 
 from graphface.document.document import InputEntry, Setting
 from graphface.document.flat import Composition, FlatNode, FlatWire
+from graphface.document.located import place_inside, plain
+from graphface.document.mistakes import choices, reason
 from graphface.document.references import Target
 from graphface.errors import DeclarationError, DocumentError, Problem, UnknownOperator, UnknownType, nearest_names
 from graphface.graph.structure import Argument, GraphInput, Ref, Step, Structure, field_type
@@ -239,26 +241,22 @@ class _Wirer:
     def _validate(self, node: FlatNode, operator: Operator, settings: Mapping[str, Setting]) -> dict[str, Any]:
         model = operator.parameters
         try:
-            checked: BaseModel = model.model_validate({name: s.value for name, s in settings.items()})
+            checked: BaseModel = model.model_validate({name: plain(s.value) for name, s in settings.items()})
         except ValidationError as error:
             for detail in error.errors(include_url=False):
                 name = str(detail["loc"][0]) if detail["loc"] else ""
                 setting = settings.get(name)
-                place = setting.place if setting is not None else node.place
+                place: Place | None = node.place
+                if setting is not None:
+                    place = place_inside(setting.value, detail["loc"][1:]) or setting.place
                 inside = "".join(f"[{part!r}]" for part in detail["loc"][1:])
                 if detail["type"] == "missing" and setting is None:
                     message = f"parameter {name!r} of node {node.name!r} ({operator.name}) is required"
                 else:
-                    message = f"parameter {name!r}{inside} of node {node.name!r} ({operator.name}): {_reason(detail)}"
-                self._problem(message, place)
+                    message = f"parameter {name!r}{inside} of node {node.name!r} ({operator.name}): {reason(detail)}"
+                self._problem(message, place, nearest_names(str(detail["input"]), choices(detail), 1))
             return {}
         return {name: getattr(checked, name) for name in model.model_fields}
 
     def _problem(self, message: str, place: Place | None, nearest: list[str] | tuple[str, ...] = ()) -> None:
         self._problems.append(Problem(message, place, tuple(nearest)))
-
-
-def _reason(detail: Any) -> str:
-    text = str(detail["msg"])
-    shown = repr(detail["input"])
-    return f"{text[:1].lower()}{text[1:]}, got {shown if len(shown) <= 60 else shown[:57] + '...'}"

@@ -54,21 +54,16 @@ def with_arrays(value: Any, change: Callable[[np.ndarray], np.ndarray]) -> Any:
     return value if same else rule.like(value, changed)
 
 
-def freeze(value: Any, lent: frozenset[int] | set[int] = frozenset()) -> tuple[np.ndarray, ...]:
-    """Make every array of a value read-only; the buffers they live in, each once.
-
-    Buffers whose id is in `lent` belong to the caller and keep their flags (views of them are made read-only).
-    """
+def freeze(value: Any) -> tuple[np.ndarray, ...]:
+    """Make every array of a value read-only; the buffers they live in, each once."""
     if type(value) in SCALARS:
         return ()
     roots: dict[int, np.ndarray] = {}
     for _, array in _walk(value):
         root = buffer_of(array)
         roots[id(root)] = root
-        if id(array) not in lent:
-            array.flags.writeable = False
-        if root is not array and id(root) not in lent:
-            root.flags.writeable = False
+        array.flags.writeable = False
+        root.flags.writeable = False
     return tuple(roots.values())
 
 
@@ -83,7 +78,7 @@ def first_non_finite(value: Any, known: MutableMapping[int, weakref.ref[Any]]) -
     """Where a value holds NaN or infinity: how many, and the first index; None where it holds none.
 
     Args:
-        known: arrays found finite before, by id (held weakly: an id may be given again); extended by those found now.
+        known: arrays found finite before, by id, as long as they live; extended by those found now.
     """
     kind = type(value)
     if kind is float:
@@ -99,7 +94,8 @@ def first_non_finite(value: Any, known: MutableMapping[int, weakref.ref[Any]]) -
         if seen is not None and seen() is array:
             continue
         if is_finite(array):
-            known[id(array)] = weakref.ref(array)
+            key = id(array)
+            known[key] = weakref.ref(array, lambda _, key=key: known.pop(key, None))  # type: ignore[misc]
             continue
         bad = ~np.isfinite(array)
         index = tuple(int(i) for i in np.argwhere(bad)[0])

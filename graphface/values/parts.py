@@ -1,9 +1,9 @@
 """What values are made of: one rule for each type, open to the types of others.
 
-Freezing, digests, the disk tier, the guard against NaN, read-only views, descriptions and .npz files all look inside
-values. Each asks `rule_of` for a value's parts, and knows by itself only what has none: arrays, numbers, texts, paths,
-enums. The rules of dataclasses, named tuples, pydantic models, lists, tuples, sets and mappings stand here. Any other
-class adds its own beside itself; its values then work wherever those of a dataclass do:
+Freezing, digests, the disk tier, the guard against NaN, private copies of inputs, descriptions and .npz files all look
+inside values. Each asks `rule_of` for a value's parts, and knows by itself only what has none: arrays, numbers, texts,
+paths, enums. The rules of dataclasses, named tuples, pydantic models, lists, tuples, sets and mappings stand here. Any
+other class adds its own beside itself; its values then work wherever those of a dataclass do:
 
     >>> import numpy as np
     >>> from graphface.values.frozen import describe, freeze

@@ -12,6 +12,7 @@ every operator would begin and end by unwrapping.
 A class may teach the engine two things, both optional: `coerce(object)` accepts what people have at hand in a notebook
 (an array for an image), and `picture(value)` draws the value as uint8, H x W x 3, for debugging; an `ArrayType` has
 `picture` as an argument. What reads and writes files stands apart (`graphface.values.files`): a value knows no files.
+A pydantic model (a scene) is small, and made by hand: it is read and checked as soon as it is given.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Albedos corrected: `shadow_color`."""
+"""Corrections of an albedo: `shadow_color`."""

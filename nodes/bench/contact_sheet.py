@@ -63,7 +63,7 @@ def mesh_overlay(photo: Image, mesh: Mesh, landmarks: Landmarks) -> Picture:
 
 def picture_of(value: Any, name: str) -> Picture:
     """A value as a picture, by the type called `name` in `graphface.nodes.types`."""
-    from graphface.nodes.types import arrays as types
+    from graphface.nodes import types
 
     declared = getattr(types, name)
     drawn: Picture = getattr(array_of(declared) or declared, "picture")(value)  # noqa: B009

@@ -19,7 +19,7 @@ from graphface.nodes.bench.geometry_graphs import geometry_graph, model_graph
 from graphface.nodes.bench.heads import LIGHTS, Head, heads_of
 from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
-from graphface.nodes.metrics.geometry import mean_angle
+from graphface.nodes.metrics import normal_angle
 from graphface.nodes.morphable.model import EYE_CORNERS, MorphableModel
 from graphface.nodes.types import Mesh
 
@@ -95,7 +95,7 @@ def _head(head: Head, compared: Sequence[Geometry]) -> Iterator[Accuracy]:
                 head=head.name,
                 light=light,
                 landmarks=None if points is None else landmark_error(found["mesh"], geometry.points68, points),
-                normals=mean_angle(surface.normals, head.normals, head.face),
+                normals=normal_angle(surface.normals, head.normals, head.face),
                 depth=correlation(surface.depth[both], -head.depth[both]),
                 milliseconds=evaluator.cpu_ms(evaluator.key("mesh"), [evaluator.key("landmarks")]),
             )

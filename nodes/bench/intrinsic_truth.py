@@ -16,7 +16,7 @@ from graphface import Graph, load
 from graphface.nodes.bench.heads import LIGHTS, Head, heads_of
 from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.color import decode_srgb
-from graphface.nodes.metrics.pictures import lmse, si_mse
+from graphface.nodes.metrics import lmse, si_mse
 
 WHITE_LIGHTS = tuple(light for light in LIGHTS if light != "red_blue")
 """Under colored light the shading is not one number a pixel."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from graphface import Graph, load
 from graphface.nodes.bench.heads import LIGHTS, Head, heads_of, true_direction
 from graphface.nodes.bench.metered import MeteredEvaluator
-from graphface.nodes.metrics.geometry import direction_angle
+from graphface.nodes.metrics import light_angle
 from graphface.nodes.types import FloatArray
 
 DIRECTED_LIGHTS = tuple(light for light in LIGHTS if light not in ("frontal", "ambient", "red_blue"))
@@ -70,8 +70,8 @@ def light_truth(
                     robust=how,
                     head=head.name,
                     light=light,
-                    mesh_degrees=direction_angle(found, towards),
-                    true_degrees=direction_angle(best, towards),
+                    mesh_degrees=light_angle(found, towards),
+                    true_degrees=light_angle(best, towards),
                     milliseconds=spent,
                 )
 

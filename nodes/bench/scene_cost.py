@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from graphface import load
+from graphface import load, read_yaml
 from graphface.evaluate.session import Session
 from graphface.nodes.bench.shipped import astronaut, shipped_scenes
 from graphface.nodes.io.image_read import read_image
@@ -55,7 +55,7 @@ def scene_costs(photo: Path | None, megapixels: float, repeats: int) -> Iterator
     session = Session(load("relight"), {"photo": image})
     session.render(["image", "face.labels"])
     named = {name: Scene.coerce(given) for name, given in PLAIN.items()}
-    named |= {path.stem: Scene.from_file(path) for path in shipped_scenes()}
+    named |= {path.stem: read_yaml(path, Scene) for path in shipped_scenes()}
     for name, scene in named.items():
         yield _cost(session, name, scene, repeats, _copy_time(image, repeats))
 

@@ -19,7 +19,7 @@ from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.bench.pair_cost import transfer_ms
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_image
-from graphface.nodes.metrics.pictures import psnr
+from graphface.nodes.metrics import psnr
 from graphface.nodes.types import FloatArray, Image, Mask
 from graphface.values.writing import make_folder
 

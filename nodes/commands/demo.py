@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from graphface import Result
     from graphface.nodes.bench.contact_sheet import Picture
 
-SCENES = ("window-left", "rim-right", "red-blue")
+SCENES = ("golden-hour", "moonlight", "red-blue")
 _STAGES = {
     "normals": ("face.normals", "Normals"),
     "face mask": ("face.mask", "Mask"),
@@ -28,7 +28,7 @@ def demo(
         Path | None, typer.Option(help="A photograph; scikit-image's astronaut (Eileen Collins, NASA) by default.")
     ] = None,
 ) -> None:
-    """Relight a photograph under three scenes; writes the pictures and a contact sheet of every stage."""
+    """Relight a photograph under three scenes; writes the pictures, a row of all, and a sheet of every stage."""
     import os
 
     from graphface import Evaluator, MemoryTier, load
@@ -51,10 +51,21 @@ def demo(
     assert results is not None
     for scene, image in relit.items():
         write_image(image, folder / f"{scene}.png")
+    write_picture(_row(results, relit), folder / "demo.jpg")
     write_picture(_sheet(results, relit), folder / "contact-sheet.png")
     print_times(records, title=f"{len(SCENES)} scenes")
     print_warnings(results.warnings)
-    print(f"wrote {', '.join(f'{scene}.png' for scene in SCENES)} and contact-sheet.png to {folder}/")
+    print(f"wrote {', '.join(f'{scene}.png' for scene in SCENES)}, demo.jpg and contact-sheet.png to {folder}/")
+
+
+def _row(results: Result, relit: dict[str, Any]) -> Picture:
+    """The face as it was and under each scene, side by side: the picture that the README opens with."""
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet
+    from graphface.nodes.types import Image
+
+    near = around_face(results["face.landmarks"], results["photo"], reach=1.7)
+    cells = {"photo": results["photo"], **relit}
+    return contact_sheet([(name, Image.picture(cell)[near]) for name, cell in cells.items()], columns=4, width=300)
 
 
 def _sheet(results: Result, relit: dict[str, Any]) -> Picture:

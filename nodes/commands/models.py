@@ -10,7 +10,7 @@ import typer
 if TYPE_CHECKING:
     from graphface.nodes.morphable.model import MorphableModel
 
-app = typer.Typer(
+app: typer.Typer = typer.Typer(
     help="List, import, describe, learn or correct 3-D face models; learn the network that labels.",
     no_args_is_help=True,
 )

@@ -1,5 +1,5 @@
-"""The detail map: what the photo has and the rendering of albedo, geometry and light lacks.
+"""Detail maps (paper, section 3): what the photo has and the rendering of albedo, geometry and light lacks.
 
-Every method of the family `detail.*` answers the same question and differs in what goes where; `detail.edit.*` changes
-a map once it is made. `graphface.nodes.rendering.applied` puts a map onto a rendering, whichever method made it.
+The methods `detail.*` have the same ports and differ in how a detail map answers a change of light; `detail.edit.*`
+change a map that is finished. `graphface.nodes.rendering.applied` puts any of them onto a rendering.
 """

@@ -9,10 +9,11 @@ from graphface.nodes.types import Albedo, DetailMap, Image, Shading
 
 @node("detail.additive")
 def additive(photo: Image, albedo: Albedo, shading: Shading) -> DetailMap:
-    """I_d(x) = I(x) - rho(x) SH(n(x), theta) (paper, section 2, "Face detail map").
+    """I_d(x) = I(x) - rho(x) SH(n(x), l_s) (paper, equation 4).
 
     Args:
-        photo: in the encoding that albedo and shading were made in.
-        shading: the estimated light's, H x W or H x W x 3, spread over the whole picture.
+        photo: I, in the encoding of albedo and shading.
+        albedo: rho, H x W x 3.
+        shading: SH(n, l_s), under the estimated light and spread over the whole picture, H x W or H x W x 3.
     """
     return DetailMap(offset=photo.pixels - rendering(albedo, shading))

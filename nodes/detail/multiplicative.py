@@ -1,4 +1,4 @@
-"""The shading ratio, which the paper's viewers found odd."""
+"""The shading ratio, which the paper compares its detail map with."""
 
 from __future__ import annotations
 
@@ -16,10 +16,13 @@ from graphface.nodes.types import Albedo, DetailMap, Image, Shading
 def multiplicative(
     photo: Image, albedo: Albedo, shading: Shading, *, floor: Annotated[float, Field(gt=0, le=1)] = 0.02
 ) -> DetailMap:
-    """The ratio I(x) / (rho(x) SH(n(x), theta)): the shading ratio of the paper's ablation (section 4.1).
+    """gain = I(x) / (rho(x) SH(n(x), l_s)), the shading ratio (paper, equation 7).
 
     Args:
-        floor: the least rendering that is divided by; what the bounded ratio cannot explain goes into the offset.
+        photo: I, in the encoding of albedo and shading.
+        albedo: rho, H x W x 3.
+        shading: SH(n, l_s), under the estimated light and spread over the whole picture, H x W or H x W x 3.
+        floor: least rendering that is divided by; the offset holds the difference that this leaves.
     """
     rendered = rendering(albedo, shading)
     gain = (photo.pixels / np.maximum(rendered, np.float32(floor))).astype(np.float32, copy=False)

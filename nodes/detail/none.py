@@ -1,4 +1,4 @@
-"""No detail map, for the paper's ablation."""
+"""No detail map, for the paper's comparison "No Detail Map" (section 5.1)."""
 
 from __future__ import annotations
 
@@ -10,5 +10,5 @@ from graphface.nodes.types import Albedo, DetailMap, Image, Shading
 
 @node("detail.none")
 def none(photo: Image, albedo: Albedo, shading: Shading) -> DetailMap:
-    """No detail at all, for the paper's ablation: recombining gives the bare rendering."""
+    """A detail map of zeros: recombined it gives the rendering alone."""
     return DetailMap(offset=np.zeros_like(photo.pixels))

@@ -1,7 +1,7 @@
-"""A detail map that is a ratio where the light falls and a difference where it rises.
+"""A detail map that is a ratio where light is taken away and a difference where light is added.
 
-A dark residual may be a brow, a crease or a cast shadow, a bright one a highlight or a freckle; a single photo does not
-say which. What matters is which way the light goes, measured with the shipped graph (`graphface bench lights`;
+A dark residual may be a brow, a crease or a cast shadow, a bright one a highlight or a freckle; a single photo cannot
+tell. What matters is whether the light gets less or more. With the shipped graph (`graphface bench lights`;
 scale-invariant PSNR in dB on path-traced heads, scale-invariant squared error on photographs of the Yale set):
 
     source -> target                          additive    ratio     this
@@ -9,10 +9,10 @@ scale-invariant PSNR in dB on path-traced heads, scale-invariant squared error o
     left45 -> six lights (--source left45)       25.81    24.62    26.34
     frontal -> eight lights (--truth yale)      0.0137   0.0119   0.0116
 
-Where light is taken away everything in the pixel loses it, highlights included, and a difference leaves them glowing:
-the ratio wins. Where light is added the ratio multiplies darkness whose cause is unknown, by factors without bound (the
-paper's "odd-looking materials ... where the ratio is large or small"): the difference wins. Both are the photo when the
-light is unchanged, so joining them there makes no seam.
+Where light is taken away the whole pixel loses it, highlights included, and a difference would leave them glowing: the
+ratio is better. Where light is added the ratio multiplies darkness of unknown cause by unbounded factors ("odd-looking
+materials", paper, section 5.1): the difference is better. Both are the photo under an unchanged light, so they join
+there without a seam.
 """
 
 from __future__ import annotations
@@ -42,55 +42,57 @@ def split(
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
     cutoff: Annotated[float, Field(ge=0, le=2)] = 0.0,
 ) -> DetailMap:
-    """A bounded, regularised ratio below the photo's own light, the paper's difference above it.
+    """A bounded, regularized ratio for less light than the photo's own, the paper's difference for more.
 
-    With R = rho s the rendering under the estimated light, gain = bounded((I + floor) / (R + floor)), one number per
-    pixel so that no hue shifts, and offset = I - gain R.
+    With I_e = rho s (paper, equation 3): gain = bounded((I + floor) / (I_e + floor)) of the channel means, one number
+    per pixel so that no hue shifts; offset = I - gain I_e; pivot = I_e.
 
     Args:
-        photo: in the encoding that albedo and shading were made in.
-        shading: the estimated light's, H x W or H x W x 3, spread over the whole picture.
-        landmarks: gives the unit of `cutoff`; without them it is a quarter of the picture's shorter side.
-        unclipped: the photo with its highlights reconstructed (`image.unclipped`). Light is taken away from it instead
-            of from the photo, so that a channel that was clipped falls only once it is below what the photo shows.
-        bound: the gain stays within 1 / bound .. bound, approached softly; 1 is the additive map.
-        floor: draws the ratio of dark pixels towards 1.
-        cutoff: residual finer than this, in inter-ocular distances, is left additive; 0: the ratio takes every scale.
+        photo: I, in the encoding of albedo and shading.
+        shading: s, under the estimated light and spread over the whole picture, H x W or H x W x 3.
+        landmarks: give the unit of `cutoff`; without them it is a quarter of the picture's shorter side.
+        unclipped: the photo with its highlights reconstructed (`image.unclipped`). It replaces I, and the photo becomes
+            the ceiling: a channel that was clipped gets darker only when its reconstructed value falls below the
+            photo's.
+        bound: the gain stays in 1 / bound .. bound and approaches the ends asymptotically; 1 is the additive map.
+        floor: pulls the ratio of dark pixels towards 1.
+        cutoff: residuals finer than this, in inter-ocular distances, stay additive; at 0 the ratio takes every scale.
 
     Returns:
-        gain, offset, pivot, and a ceiling with `unclipped`; recombined under `shading` they return the photo.
+        gain, offset and pivot, and with `unclipped` a ceiling. Recombined under `shading` they return the photo.
     """
     source = photo.pixels if unclipped is None else unclipped.pixels
-    rendered, ratio = np.empty_like(source), np.empty(source.shape[:2], np.float32)
+    rendered, log_ratio = np.empty_like(source), np.empty(source.shape[:2], np.float32)
 
     def compare(rows: slice) -> None:
         rendered[rows] = rendering(albedo[rows], shading[rows])
-        above, below = (channel_mean(v[rows]) + np.float32(floor) for v in (source, rendered))
-        ratio[rows] = np.log(np.maximum(above, 1e-4) / np.maximum(below, 1e-4))
+        numerator, denominator = (channel_mean(v[rows]) + np.float32(floor) for v in (source, rendered))
+        log_ratio[rows] = np.log(np.maximum(numerator, 1e-4) / np.maximum(denominator, 1e-4))
 
     by_strips(compare, source.shape)
     if cutoff > 0:
-        ratio = blurred(ratio, max(cutoff * _unit(landmarks, photo), 1e-2))
+        log_ratio = blurred(log_ratio, max(cutoff * _interocular(landmarks, photo), 1e-2))
     gain, offset = np.empty_like(source), np.empty_like(source)
 
-    def part(rows: slice) -> None:
-        gain[rows] = in_three_channels(_bounded(ratio[rows], bound))
+    def divide(rows: slice) -> None:
+        gain[rows] = in_three_channels(_bounded_exp(log_ratio[rows], bound))
         np.subtract(source[rows], gain[rows] * rendered[rows], out=offset[rows])
 
-    by_strips(part, source.shape)
-    # A copy: what shares memory with a photo that the caller owns is not remembered.
+    by_strips(divide, source.shape)
+    # A copy, because a result that shares memory with a photo of the caller's is not memoized.
     ceiling = None if source is photo.pixels else photo.pixels.copy()
     return DetailMap(offset=offset, gain=gain, pivot=rendered, ceiling=ceiling)
 
 
-def _bounded(ratio: FloatArray, bound: float) -> FloatArray:
-    """exp of a log ratio, squeezed so that it nears `bound` and its inverse without a kink."""
+def _bounded_exp(log_ratio: FloatArray, bound: float) -> FloatArray:
+    """exp(L tanh(log_ratio / L)) with L = log(bound): near 1 the ratio itself, and always in 1 / bound .. bound."""
     limit = np.float32(max(np.log(bound), 1e-6))
-    gain: FloatArray = np.exp(limit * np.tanh(ratio / limit))
+    gain: FloatArray = np.exp(limit * np.tanh(log_ratio / limit))
     return gain
 
 
-def _unit(landmarks: Landmarks | None, photo: Image) -> float:
+def _interocular(landmarks: Landmarks | None, photo: Image) -> float:
+    """Pixels."""
     if landmarks is not None:
         return landmarks.interocular
     warn("detail.split: no landmarks to give the cut-off its unit; took a quarter of the picture's shorter side")

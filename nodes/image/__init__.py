@@ -1,2 +1,2 @@
-"""Pictures: between encodings (`encode`), at another size (`resize`), with clipped highlights given back
+"""Operators on pictures: change of encoding (`encode`) and of size (`resize`), reconstruction of clipped highlights
 (`unclipped`)."""

@@ -1,4 +1,4 @@
-"""A picture between its encodings."""
+"""Pictures in sRGB or in linear light."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from graphface.nodes.types import Encoding, Image
 
 @node("image.encode")
 def encode(photo: Image, *, encoding: Encoding) -> Image:
-    """The same picture with its values sRGB-encoded or in linear light; the same object where it already is."""
+    """The same picture with its values sRGB-encoded or in linear light; the same object if it already has them so."""
     if photo.encoding == encoding:
         return photo
-    change = encode_srgb if encoding == "srgb" else decode_srgb
-    return photo.with_pixels(change(photo.pixels), encoding)
+    convert = encode_srgb if encoding == "srgb" else decode_srgb
+    return photo.with_pixels(convert(photo.pixels), encoding)

@@ -1,4 +1,4 @@
-"""A picture at another size."""
+"""Pictures at another size."""
 
 from __future__ import annotations
 
@@ -24,9 +24,10 @@ def resize(
     """The picture with its longer side `long_side` pixels long, resampled in linear light.
 
     Args:
-        photo: any picture; the same object is returned where it already fits.
-        long_side: in pixels; the shorter side follows, at least 1.
-        enlarge: whether a smaller picture is enlarged (cubic) or left as it is.
+        photo: any picture; the same object is returned if it has that size already.
+        long_side: in pixels; the aspect ratio is kept, and the shorter side is at least 1.
+        enlarge: whether a smaller picture is enlarged (bicubic) or left as it is. A larger one is always reduced, by
+            the mean over areas.
     """
     longest = max(photo.width, photo.height)
     if longest == long_side or (longest < long_side and not enlarge):

@@ -1,6 +1,6 @@
-"""The family `intrinsic.*`: one photo in, albedo and shading out. One file per method, none calls another.
+"""Intrinsic images: the methods `intrinsic.*` split one photo into albedo and shading; one file per method.
 
-Every method keeps albedo * shading = photo: what differs is where a dark patch goes. All but `intensity` decide in the
-logarithm of the intensity, where the product is a sum (`logarithm`), and leave the overall scale, which no photo tells,
-such that shading has the mean of the intensity.
+Every method keeps albedo * shading = photo. They differ in whether a dark patch is albedo or shading. All but
+`intensity` decide in the logarithmic domain, where the product is a sum (`log_domain`). A photo does not determine the
+overall scale of the shading; they choose it such that shading has the mean of the intensity.
 """

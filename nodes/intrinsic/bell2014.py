@@ -1,4 +1,4 @@
-"""Intrinsic Images in the Wild: few reflectances, spread by a fully connected random field."""
+"""Intrinsic Images in the Wild: few reflectances, assigned by a fully connected random field."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.intrinsic.lift import lifted, shrunk
-from graphface.nodes.intrinsic.logarithm import chromaticity, finite_pixels, log_intensity, separated
+from graphface.nodes.intrinsic.guided_upsampling import reduced, upsampled
+from graphface.nodes.intrinsic.log_domain import chromaticity, finite_pixels, intrinsic_images, log_intensity
 from graphface.nodes.intrinsic.permutohedral import Lattice
-from graphface.nodes.intrinsic.reflectances import clusters, settled
+from graphface.nodes.intrinsic.reflectances import Palette, clusters, with_continuous_shading
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
-PLACE, INTENSITY, COLOR = 0.1, 0.12, 0.025
-"""The paper's theta_p (of the diagonal), theta_l and theta_c: how near, how alike in log intensity, how alike in
-chromaticity two pixels are that are asked to share a reflectance."""
+THETA_P, THETA_L, THETA_C = 0.1, 0.12, 0.025
+"""Standard deviations of the pairwise kernel, named as in the paper: position (share of the diagonal), log intensity
+and chromaticity. The pairwise term prefers the same reflectance for pixels that are near in all three."""
 
 
-_ALIKE, _SMOOTH, _HUE = 20.0, 4.0, 30.0
-"""Weights of the three terms: shared reflectance, smooth shading, hue of the label. Set on the synthetic patchwork of
+_PAIRWISE_WEIGHT, _SHADING_WEIGHT, _HUE_WEIGHT = 20.0, 4.0, 30.0
+"""Of the three terms: equal reflectance, smooth shading, hue of the label. Chosen on the synthetic patchwork of
 tests/nodes/intrinsic, to within a factor of 2."""
 
 
@@ -36,62 +36,75 @@ def bell2014(
     resolution: Annotated[int, Field(ge=16, le=2048)] = 320,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Intrinsic:
-    """Every pixel gets one of a few reflectances; shading is what is left.
+    """Every pixel gets one of a few reflectances; the remainder is shading.
 
-    Bell, Bala, Snavely, Intrinsic Images in the Wild, SIGGRAPH 2014. Rounds of two steps: (1) labels by mean-field
-    inference in a dense conditional random field, whose pairwise term asks near, similar pixels for like reflectances
-    (a five-dimensional Gaussian, `Lattice`) and whose unary terms ask for a shading near the last round's blurred one
-    and for the label's hue; (2) the intensities of the reflectances, such that shading is continuous across the
-    borders between labels. (The paper's constant prior on shading is taken over by the overall scale, its final
-    splitting of labels is left out.)
+    Bell, Bala, Snavely, Intrinsic Images in the Wild, SIGGRAPH 2014. Two steps alternate. (1) Labels by mean-field
+    inference in a dense conditional random field: the pairwise term prefers similar reflectances of near and similar
+    pixels (a five-dimensional Gaussian, `Lattice`), the unary terms a shading near the blurred one of the last round
+    and a hue near the label's. (2) Intensities of the reflectances that make shading continuous across the borders
+    between labels. (The overall scale replaces the paper's constant prior on shading; its final splitting of labels is
+    left out.)
 
     Args:
-        mask: H x W, over which shading gets the mean of the intensity.
-        labels: how many reflectances. rounds: of both steps. sweeps: of mean-field inference in a round.
-        resolution: longer side of the copy that is solved on. Draft: rounds 3, sweeps 2, resolution 160.
+        mask: H x W; over it shading gets the mean of the intensity.
+        labels: number of reflectances.
+        rounds: of both steps.
+        sweeps: of mean-field inference in a round.
+        resolution: longer side in pixels of the copy on which the problem is solved. Draft: rounds 3, sweeps 2,
+            resolution 160.
         floor: least shading.
 
     Returns:
         albedo * shading is the photo.
     """
     pixels = finite_pixels(photo, "intrinsic.bell2014")
-    tiny = shrunk(pixels, resolution)
-    intensity, hue = log_intensity(tiny), chromaticity(tiny)
+    small = reduced(pixels, resolution)
+    intensity, hue = log_intensity(small), chromaticity(small)
     palette = clusters(intensity, hue, labels)
     lattice = Lattice(_features(intensity, hue))
-    own = hue.reshape(-1, 3)[:, None, :] - palette.hues[None]
-    off_hue = np.float32(_HUE) * np.sqrt(np.einsum("nkc,nkc->nk", own, own))
-    expected = _blurred(intensity - palette.intensities[palette.label])
-    belief: FloatArray | None = None
+    hue_cost = _hue_cost(hue, palette)
+    probabilities: FloatArray | None = None
     for _ in range(rounds):
-        shading = intensity.reshape(-1, 1) - palette.intensities[None, :]
-        unary = off_hue + np.float32(_SMOOTH) * np.abs(shading - expected.reshape(-1, 1))
-        contrast = np.abs(palette.intensities[:, None] - palette.intensities[None, :])
-        belief = _mean_field(unary, contrast, lattice, sweeps, belief)
-        palette = settled(palette, belief.argmax(axis=1).reshape(intensity.shape), intensity)
         expected = _blurred(intensity - palette.intensities[palette.label])
-    assert belief is not None
-    reflectance = (belief @ palette.intensities).reshape(intensity.shape)
-    return separated(pixels, lifted(intensity - reflectance, intensity, log_intensity(pixels)), mask, floor)
+        shading = intensity.reshape(-1, 1) - palette.intensities[None, :]
+        unary = hue_cost + np.float32(_SHADING_WEIGHT) * np.abs(shading - expected.reshape(-1, 1))
+        difference = np.abs(palette.intensities[:, None] - palette.intensities[None, :])
+        probabilities = _mean_field(unary, difference, lattice, sweeps, probabilities)
+        palette = with_continuous_shading(palette, probabilities.argmax(axis=1).reshape(intensity.shape), intensity)
+    assert probabilities is not None
+    reflectance = (probabilities @ palette.intensities).reshape(intensity.shape)
+    return intrinsic_images(pixels, upsampled(intensity - reflectance, intensity, log_intensity(pixels)), mask, floor)
 
 
 def _features(intensity: FloatArray, hue: FloatArray) -> NDArray[np.float32]:
-    """(n, 5): place, log intensity and two chromaticities, each over its standard deviation."""
+    """(n, 5): position, log intensity and two chromaticities, each over its standard deviation."""
     height, width = intensity.shape
-    reach = max(PLACE * float(np.hypot(height, width)), 1e-3)
-    rows, columns = np.mgrid[0:height, 0:width].astype(np.float32) / np.float32(reach)
-    channels = [rows, columns, intensity / np.float32(INTENSITY), hue[..., 0] / COLOR, hue[..., 1] / COLOR]
+    sigma = max(THETA_P * float(np.hypot(height, width)), 1e-3)
+    rows, columns = np.mgrid[0:height, 0:width].astype(np.float32) / np.float32(sigma)
+    channels = [rows, columns, intensity / np.float32(THETA_L), hue[..., 0] / THETA_C, hue[..., 1] / THETA_C]
     return np.stack([np.asarray(c, np.float32).ravel() for c in channels], axis=1)
 
 
+def _hue_cost(hue: FloatArray, palette: Palette) -> FloatArray:
+    """Unary cost of each label by the distance of its chromaticity, (n, labels)."""
+    difference = hue.reshape(-1, 3)[:, None, :] - palette.hues[None]
+    cost: FloatArray = np.float32(_HUE_WEIGHT) * np.sqrt(np.einsum("nkc,nkc->nk", difference, difference))
+    return cost
+
+
 def _mean_field(
-    unary: FloatArray, contrast: FloatArray, lattice: Lattice, sweeps: int, belief: FloatArray | None
+    unary: FloatArray, difference: FloatArray, lattice: Lattice, sweeps: int, probabilities: FloatArray | None
 ) -> FloatArray:
-    """Probabilities (n, labels). Krähenbühl and Koltun, NIPS 2011: a sweep is one filtering and one small product."""
-    belief = _softmax(-unary) if belief is None else belief
+    """Label probabilities (n, labels) by mean-field inference (Krähenbühl and Koltun, NIPS 2011, algorithm 1).
+
+    Args:
+        unary: (n, labels). difference: cost of two labels for similar pixels, (labels, labels).
+    """
+    probabilities = _softmax(-unary) if probabilities is None else probabilities
     for _ in range(sweeps):
-        belief = _softmax(-unary - np.float32(_ALIKE) * (lattice.filter(belief) @ contrast))
-    return belief
+        pairwise = lattice.filter(probabilities) @ difference
+        probabilities = _softmax(-unary - np.float32(_PAIRWISE_WEIGHT) * pairwise)
+    return probabilities
 
 
 def _softmax(scores: FloatArray) -> FloatArray:
@@ -103,5 +116,5 @@ def _softmax(scores: FloatArray) -> FloatArray:
 def _blurred(shading: FloatArray) -> FloatArray:
     import cv2
 
-    sigma = max(PLACE * 0.5 * max(shading.shape), 0.5)
+    sigma = max(THETA_P * 0.5 * max(shading.shape), 0.5)
     return np.asarray(cv2.GaussianBlur(shading, (0, 0), sigma, borderType=cv2.BORDER_REPLICATE), np.float32)

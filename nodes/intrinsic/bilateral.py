@@ -7,9 +7,12 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from graphface import node
-from graphface.nodes.intrinsic.logarithm import finite_pixels, log_intensity, separated
+from graphface import Formerly, node
+from graphface.nodes.intrinsic.log_domain import finite_pixels, intrinsic_images, log_intensity
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
+
+_MARGIN = 2
+"""Empty cells around the grid, so that its blur stays inside."""
 
 
 @node("intrinsic.bilateral")
@@ -17,20 +20,20 @@ def bilateral(
     photo: Image,
     mask: Mask | None = None,
     *,
-    reach: Annotated[float, Field(gt=0, le=1)] = 0.04,
-    contrast: Annotated[float, Field(gt=0, le=10)] = 0.4,
+    spatial_sigma: Annotated[float, Field(gt=0, le=1), Formerly("reach")] = 0.04,
+    range_sigma: Annotated[float, Field(gt=0, le=10), Formerly("contrast")] = 0.4,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Intrinsic:
-    """log s = the bilateral filter of the log intensity; what it smooths away is texture, hence albedo.
+    """log s is the bilateral filter of the log intensity; the texture that it removes is albedo.
 
-    Oh, Chen, Dorsey, Durand, Image-Based Modeling and Photo Editing, SIGGRAPH 2001. The filter runs on the bilateral
-    grid of Chen, Paris, Durand, SIGGRAPH 2007: blurring a small volume of (place, intensity), at a cost that falls as
-    `reach` grows.
+    Oh, Chen, Dorsey, Durand, Image-Based Modeling and Photo Editing, SIGGRAPH 2001. The filter is a blur in the
+    bilateral grid of position and intensity (Chen, Paris, Durand, Real-Time Edge-Aware Image Processing with the
+    Bilateral Grid, SIGGRAPH 2007), whose cost falls with `spatial_sigma`.
 
     Args:
-        mask: H x W, over which shading gets the mean of the intensity.
-        reach: standard deviation in space, as a share of the longer side.
-        contrast: standard deviation in log intensity; steps beyond it stay in the shading.
+        mask: H x W; over it shading gets the mean of the intensity.
+        spatial_sigma: standard deviation in the picture, as a share of the longer side.
+        range_sigma: standard deviation in log intensity; larger steps stay in the shading.
         floor: least shading.
 
     Returns:
@@ -38,27 +41,31 @@ def bilateral(
     """
     pixels = finite_pixels(photo, "intrinsic.bilateral")
     intensity = log_intensity(pixels)
-    smooth = _grid_filtered(intensity, max(reach * max(intensity.shape), 1.0), contrast)
-    return separated(pixels, smooth, mask, floor)
+    smooth = _grid_filtered(intensity, max(spatial_sigma * max(intensity.shape), 1.0), range_sigma)
+    return intrinsic_images(pixels, smooth, mask, floor)
 
 
-def _grid_filtered(values: FloatArray, reach: float, contrast: float) -> FloatArray:
-    """Splat into a grid with one cell per standard deviation, blur by one cell, read back trilinearly."""
+def _grid_filtered(values: FloatArray, spatial_sigma: float, range_sigma: float) -> FloatArray:
+    """Splat into a grid with one cell per standard deviation, blur by one cell, read back trilinearly.
+
+    Args:
+        values: H x W. spatial_sigma: in pixels. range_sigma: in the unit of `values`.
+    """
     from scipy.ndimage import gaussian_filter, map_coordinates
 
     height, width = values.shape
-    rows = np.arange(height, dtype=np.float32)[:, None] / np.float32(reach) + 2
-    columns = np.arange(width, dtype=np.float32)[None, :] / np.float32(reach) + 2
-    levels = (values - values.min()) / np.float32(contrast) + 2
-    shape = (int(rows[-1, 0]) + 4, int(columns[0, -1]) + 4, int(levels.max()) + 4)
-    near = [np.broadcast_to(np.rint(c).astype(np.intp), values.shape).ravel() for c in (rows, columns, levels)]
-    cell = np.ravel_multi_index((near[0], near[1], near[2]), shape)
-    cells = int(np.prod(shape))
-    total = np.bincount(cell, weights=values.ravel(), minlength=cells).reshape(shape)
-    count = np.bincount(cell, minlength=cells).reshape(shape).astype(np.float64)
+    rows = np.arange(height, dtype=np.float32)[:, None] / np.float32(spatial_sigma) + _MARGIN
+    columns = np.arange(width, dtype=np.float32)[None, :] / np.float32(spatial_sigma) + _MARGIN
+    levels = (values - values.min()) / np.float32(range_sigma) + _MARGIN
+    shape = tuple(int(last) + 2 * _MARGIN for last in (rows[-1, 0], columns[0, -1], levels.max()))
+    cells = [np.broadcast_to(np.rint(c).astype(np.intp), values.shape).ravel() for c in (rows, columns, levels)]
+    index = np.ravel_multi_index((cells[0], cells[1], cells[2]), shape)
+    size = int(np.prod(shape))
+    total = np.bincount(index, weights=values.ravel(), minlength=size).reshape(shape)
+    count = np.bincount(index, minlength=size).reshape(shape).astype(np.float64)
     total, count = gaussian_filter(total, 1, mode="constant"), gaussian_filter(count, 1, mode="constant")
     filtered = np.where(count > 1e-9, total / np.maximum(count, 1e-9), 0).astype(np.float32)
-    weight = (count > 1e-9).astype(np.float32)
-    places = np.stack([np.broadcast_to(c, values.shape) for c in (rows, columns, levels)])
-    read, present = (map_coordinates(volume, places, order=1, mode="nearest") for volume in (filtered, weight))
-    return np.where(present > 1e-3, read / np.maximum(present, 1e-3), values).astype(np.float32)
+    occupied = (count > 1e-9).astype(np.float32)
+    positions = np.stack([np.broadcast_to(c, values.shape) for c in (rows, columns, levels)])
+    read, weight = (map_coordinates(volume, positions, order=1, mode="nearest") for volume in (filtered, occupied))
+    return np.where(weight > 1e-3, read / np.maximum(weight, 1e-3), values).astype(np.float32)

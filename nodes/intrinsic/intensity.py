@@ -1,4 +1,4 @@
-"""The paper's own split of a picture: shading is intensity."""
+"""The paper's intrinsic images: shading is intensity."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import channel_mean
-from graphface.nodes.intrinsic.logarithm import finite_pixels
+from graphface.nodes.intrinsic.log_domain import finite_pixels
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
 Intensity = Literal["mean", "luma", "value"]
@@ -23,20 +23,20 @@ def intensity(
     measure: Intensity = "mean",
     floor: Annotated[float, Field(gt=0, le=1)] = 0.15,
 ) -> Intrinsic:
-    """s(x) = intensity of I(x), rho(x) = I(x) / s(x) (paper, section 2, "Intrinsic images").
+    """s(x) = Intensity(x), rho(x) = I(x) / s(x) (paper, section 3, "Intrinsic images").
 
-    It takes small dark patches for shadow. That is wrong for the albedo and right for editing: what is dark because of
-    relief must not travel with the color.
+    Small dark patches count as shadow. That is wrong for the albedo and right for editing: darkness that is due to
+    relief must not be transferred with the color.
 
     Args:
-        photo: in any encoding; both maps are in the same one.
-        mask: takes no part; the family has it.
-        measure: "mean" of R, G and B; "luma", their Rec. 709 weighting; "value", the largest (then albedo <= 1).
-        floor: the least shading. Pixels darker than it get a dark albedo instead, so that the color noise of black is
-            not blown up, and black things stay black under any light.
+        photo: I, in any encoding; both maps are in the same one.
+        mask: not used; the family has it.
+        measure: "mean" of R, G and B; "luma", weighted as in ITU-R BT.709; "value", the largest (then albedo <= 1).
+        floor: least shading. Darker pixels get a dark albedo instead, so that the color noise of black is not
+            amplified, and black things stay black under any light.
 
     Returns:
-        `albedo` float32 H x W x 3, `shading` float32 H x W; their product is the photo.
+        `albedo` rho, float32 H x W x 3, and `shading` s, float32 H x W; their product is the photo.
     """
     pixels = finite_pixels(photo, "intrinsic.intensity")
     shading = np.maximum(_MEASURES[measure](pixels), np.float32(floor)).astype(np.float32, copy=False)

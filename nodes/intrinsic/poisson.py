@@ -1,7 +1,7 @@
-"""Poisson problems on a rectangle with free edges, solved exactly by the cosine transform.
+"""Poisson problems on a rectangle with Neumann boundaries, solved exactly by the cosine transform.
 
-The discrete Laplacian with Neumann edges is diagonal under the type-II cosine transform, so
-(screen - stiffness Laplace) u = f takes two transforms whatever its condition: no iterations and no tolerance.
+The type-II cosine transform diagonalizes the discrete Laplacian with Neumann boundaries. So
+(screen - stiffness Laplace) u = f takes two transforms, whatever its condition: no iterations and no tolerance.
 """
 
 from __future__ import annotations
@@ -10,13 +10,22 @@ import numpy as np
 
 from graphface.nodes.types import FloatArray
 
-_LEAST = 1e-12
+_LEAST_EIGENVALUE = 1e-12
 
 
 def solve(right: FloatArray, *, screen: float, stiffness: float = 1.0) -> FloatArray:
-    """u with screen u - stiffness Laplace(u) = right, float32 H x W (or H x W x c, channel by channel).
+    """u with screen u - stiffness Laplace(u) = right.
 
-    With `screen` 0 the constant is free; it is chosen such that u has mean 0.
+    Args:
+        right: float32 H x W, or H x W x c, whose channels are solved one by one.
+        screen: 0 or more. At 0 the solution is determined up to a constant; the one of mean 0 is returned.
+
+    Returns:
+        float32 of the shape of `right`.
+
+    >>> ramp = np.arange(4, dtype=np.float32)[None, :]
+    >>> solve(-divergence(*gradient(ramp)), screen=0).round(3)  # the ramp again, with mean 0
+    array([[-1.5, -0.5,  0.5,  1.5]], dtype=float32)
     """
     from scipy.fft import dctn, idctn
 
@@ -26,7 +35,7 @@ def solve(right: FloatArray, *, screen: float, stiffness: float = 1.0) -> FloatA
     eigenvalues = screen + stiffness * (down[:, None] + across[None, :])
     if screen <= 0:
         eigenvalues[0, 0] = np.inf
-    inverse = (1 / np.maximum(eigenvalues, _LEAST)).astype(np.float32)
+    inverse = (1 / np.maximum(eigenvalues, _LEAST_EIGENVALUE)).astype(np.float32)
     spectrum *= inverse.reshape(height, width, *[1] * (right.ndim - 2))
     return np.asarray(idctn(spectrum, axes=(0, 1), norm="ortho", workers=2), np.float32)
 
@@ -40,10 +49,10 @@ def gradient(values: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def divergence(down: FloatArray, across: FloatArray) -> FloatArray:
-    """Minus the adjoint of `gradient`; the last row of `down` and column of `across` take no part."""
-    flow = np.zeros_like(down)
-    flow[:-1] += down[:-1]
-    flow[1:] -= down[:-1]
-    flow[:, :-1] += across[:, :-1]
-    flow[:, 1:] -= across[:, :-1]
-    return flow
+    """Minus the adjoint of `gradient`; the last row of `down` and the last column of `across` do not count."""
+    result = np.zeros_like(down)
+    result[:-1] += down[:-1]
+    result[1:] -= down[:-1]
+    result[:, :-1] += across[:, :-1]
+    result[:, 1:] -= across[:, :-1]
+    return result

@@ -1,4 +1,4 @@
-"""Retinex: steep changes are reflectance, gentle ones are shading."""
+"""Retinex: large steps between neighbouring pixels are reflectance, small ones are shading."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.intrinsic.logarithm import chromaticity, finite_pixels, log_intensity, separated
+from graphface.nodes.intrinsic.log_domain import chromaticity, finite_pixels, intrinsic_images, log_intensity
 from graphface.nodes.intrinsic.poisson import divergence, gradient, solve
 from graphface.nodes.types import FloatArray, Image, Intrinsic, Mask
 
@@ -24,16 +24,16 @@ def retinex(
     brightness: Threshold = 0.25,
     floor: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Intrinsic:
-    """Land and McCann's retinex in its color-gradient form, as a Poisson problem.
+    """Color retinex as a Poisson problem.
 
-    Land, McCann, Lightness and Retinex Theory, JOSA 1971; the color form is that of Grosse et al., Ground Truth
-    Dataset and Baseline Evaluations for Intrinsic Image Algorithms, ICCV 2009. A step between neighbours belongs to the
-    reflectance where chromaticity changes by more than `color` or log intensity by more than `brightness`; the log
-    reflectance is the field whose gradient is nearest to the steps kept.
+    Land, McCann, Lightness and Retinex Theory, JOSA 1971, in the color form of Grosse, Johnson, Adelson, Freeman,
+    Ground Truth Dataset and Baseline Evaluations for Intrinsic Image Algorithms, ICCV 2009. A step between neighbours
+    is reflectance where chromaticity changes by more than `color` or log intensity by more than `brightness`. The log
+    reflectance is the field whose gradient is nearest to these steps in the least-squares sense.
 
     Args:
-        mask: H x W, over which shading gets the mean of the intensity.
-        color, brightness: thresholds on one pixel's step; lower ones move more into the albedo.
+        mask: H x W; over it shading gets the mean of the intensity.
+        color, brightness: thresholds of the step between two pixels; lower ones leave more in the albedo.
         floor: least shading.
 
     Returns:
@@ -41,14 +41,13 @@ def retinex(
     """
     pixels = finite_pixels(photo, "intrinsic.retinex")
     intensity = log_intensity(pixels)
-    steps = gradient(intensity)
-    hues = gradient(chromaticity(pixels))
-    kept = [_kept(step, hue, color, brightness) for step, hue in zip(steps, hues, strict=True)]
+    steps = zip(gradient(intensity), gradient(chromaticity(pixels)), strict=True)
+    kept = [_reflectance_steps(step, chroma_step, color, brightness) for step, chroma_step in steps]
     reflectance = solve(-divergence(kept[0], kept[1]), screen=0)
-    return separated(pixels, intensity - reflectance, mask, floor)
+    return intrinsic_images(pixels, intensity - reflectance, mask, floor)
 
 
-def _kept(step: FloatArray, hue: FloatArray, color: float, brightness: float) -> FloatArray:
-    """The steps that are changes of reflectance, 0 elsewhere."""
-    turned = hue[..., 0] ** 2 + hue[..., 1] ** 2 + hue[..., 2] ** 2 > color**2
-    return np.where(turned | (np.abs(step) > brightness), step, np.float32(0))
+def _reflectance_steps(step: FloatArray, chroma_step: FloatArray, color: float, brightness: float) -> FloatArray:
+    """The steps of log intensity that are changes of reflectance, 0 elsewhere: H x W."""
+    squared = chroma_step[..., 0] ** 2 + chroma_step[..., 1] ** 2 + chroma_step[..., 2] ** 2
+    return np.where((squared > color**2) | (np.abs(step) > brightness), step, np.float32(0))

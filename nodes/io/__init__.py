@@ -1,1 +1,2 @@
-"""Files: pictures and the text in them, panoramas, meshes, landmarks, scenes, pins, judgements, representations."""
+"""Reading and writing files: pictures and the text in them, panoramas, meshes, landmarks, scenes, pins, judgements,
+representations."""

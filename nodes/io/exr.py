@@ -1,8 +1,8 @@
-"""OpenEXR panoramas: enough of the format for the environment maps that people share.
+"""OpenEXR panoramas: the part of the format that environment maps use.
 
-Single-part scan-line files with half or float channels R, G, B (or Y), uncompressed or with ZIP, ZIPS or RLE
-compression; written uncompressed, in float. (The OpenCV builds on the package index come without OpenEXR.) The format:
-Technical Introduction to OpenEXR, openexr.com.
+Read: single-part scan-line files with half or float channels R, G, B (or Y), without compression or with RLE, ZIPS or
+ZIP. Written: without compression, as float. (The OpenCV builds on the package index have no OpenEXR.) The format is
+described in "OpenEXR File Layout", openexr.com.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ _MAGIC = b"\x76\x2f\x31\x01"
 
 
 _LINES = {0: 1, 1: 1, 2: 1, 3: 16}
-"""Scan lines in a block by compression: none, RLE, ZIPS, ZIP."""
+"""Scan lines in a block, by compression: none, RLE, ZIPS, ZIP."""
 
 
 _DTYPES: dict[int, np.dtype[Any]] = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 
 
-_MOST_PIXELS = 1 << 28
+_LARGEST = 1 << 28
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class _Header:
 
 
 def read_exr(path: Path) -> FloatArray:
-    """Radiance float32 H x W x 3.
+    """Read radiance, float32 H x W x 3; a single channel Y is repeated.
 
     Raises:
         UnreadableFile: not OpenEXR, damaged, or of a kind that is not read (tiled, deep, PIZ ...).
@@ -62,7 +62,7 @@ def read_exr(path: Path) -> FloatArray:
 
 
 def write_exr(radiance: FloatArray, path: Path) -> None:
-    """Write H x W x 3 as uncompressed float.
+    """Write radiance float32 H x W x 3, without compression.
 
     Raises:
         UnwritableFile: the folder cannot be written to.
@@ -100,33 +100,33 @@ def _header(data: bytes, path: Path) -> _Header:
     if flags & 0x1A:  # tiled, deep, several parts
         raise UnreadableFile(path, "tiled, deep and multi-part OpenEXR is not read; save it as single-part scan lines")
     found: dict[str, bytes] = {}
-    place = 8
-    while data[place]:
-        name, place = _word(data, place)
-        _, place = _word(data, place)
-        (size,) = struct.unpack_from("<I", data, place)
-        found[name] = data[place + 4 : place + 4 + size]
-        place += 4 + size
+    position = 8
+    while data[position]:
+        name, position = _word(data, position)
+        _, position = _word(data, position)
+        (size,) = struct.unpack_from("<I", data, position)
+        found[name] = data[position + 4 : position + 4 + size]
+        position += 4 + size
     left, top, right, bottom = struct.unpack("<4i", found["dataWindow"])
     compression = found["compression"][0]
     if compression not in _LINES:
         raise UnreadableFile(path, f"OpenEXR compression {compression} is not read; save it with ZIP or none")
     width, height = right - left + 1, bottom - top + 1
-    if width < 1 or height < 1 or width * height > _MOST_PIXELS:
+    if width < 1 or height < 1 or width * height > _LARGEST:
         raise ValueError(f"a window of {width} x {height} pixels")
-    return _Header(_channels(found["channels"]), compression, left, top, width, height, place + 1)
+    return _Header(_channels(found["channels"]), compression, left, top, width, height, position + 1)
 
 
 def _channels(listed: bytes) -> list[tuple[str, np.dtype[Any]]]:
     channels: list[tuple[str, np.dtype[Any]]] = []
-    place = 0
-    while listed[place]:
-        name, place = _word(listed, place)
-        kind, _, across, down = struct.unpack_from("<iB3xii", listed, place)
+    position = 0
+    while listed[position]:
+        name, position = _word(listed, position)
+        kind, _, across, down = struct.unpack_from("<iB3xii", listed, position)
         if (across, down) != (1, 1):
             raise ValueError(f"channel {name} is subsampled")
         channels.append((name, _DTYPES[kind]))
-        place += 16
+        position += 16
     return channels
 
 
@@ -144,16 +144,16 @@ def _planes(data: bytes, header: _Header) -> dict[str, FloatArray]:
             raise ValueError(f"a block at line {y}")
         whole = count * header.width * sum(dtype.itemsize for _, dtype in header.channels)
         block = _expanded(data[offset + 8 : offset + 8 + size], whole, header.compression)
-        place = 0
+        position = 0
         for line in range(row, row + count):
             for name, dtype in header.channels:
-                planes[name][line] = np.frombuffer(block, dtype, header.width, place)
-                place += dtype.itemsize * header.width
+                planes[name][line] = np.frombuffer(block, dtype, header.width, position)
+                position += dtype.itemsize * header.width
     return planes
 
 
 def _expanded(block: bytes, whole: int, compression: int) -> bytes:
-    """Undo compression, the byte-wise difference and the interleaving; a block that grew was stored as it is."""
+    """Undo compression, byte-wise differences and interleaving; a block that would grow is stored as it is."""
     if compression == 0 or len(block) == whole:
         return block
     raw = _run_lengths(block) if compression == 1 else zlib.decompressobj().decompress(block, whole)
@@ -166,18 +166,18 @@ def _expanded(block: bytes, whole: int, compression: int) -> bytes:
 
 
 def _run_lengths(block: bytes) -> bytes:
-    parts, place = [], 0
-    while place < len(block):
-        (count,) = struct.unpack_from("b", block, place)
+    parts, position = [], 0
+    while position < len(block):
+        (count,) = struct.unpack_from("b", block, position)
         if count < 0:
-            parts.append(block[place + 1 : place + 1 - count])
-            place += 1 - count
+            parts.append(block[position + 1 : position + 1 - count])
+            position += 1 - count
         else:
-            parts.append(block[place + 1 : place + 2] * (count + 1))
-            place += 2
+            parts.append(block[position + 1 : position + 2] * (count + 1))
+            position += 2
     return b"".join(parts)
 
 
-def _word(data: bytes, place: int) -> tuple[str, int]:
-    end = data.index(b"\0", place)
-    return data[place:end].decode("latin-1"), end + 1
+def _word(data: bytes, position: int) -> tuple[str, int]:
+    end = data.index(b"\0", position)
+    return data[position:end].decode("latin-1"), end + 1

@@ -12,9 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from graphface import Files
-
-PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff")
-MESHES = (".obj", ".ply", ".glb", ".gltf")
+from graphface.nodes.io.suffixes import MESHES, PICTURES
 
 
 def _read_image(path: Path) -> Any:
@@ -98,12 +96,6 @@ def _write_model(model: Any, path: Path) -> None:
     save_model(model, path)
 
 
-def _read_label_weights(path: Path) -> Any:
-    from graphface.nodes.masks.label_weights import LabelWeights, read_weights
-
-    return LabelWeights(read_weights(path))
-
-
 def _read_environment(path: Path) -> Any:
     from graphface.nodes.io.panorama import read_panorama
 
@@ -117,9 +109,10 @@ def _write_environment(environment: Any, path: Path) -> None:
 
 
 def _read_scene(path: Path) -> Any:
+    from graphface import read_yaml
     from graphface.nodes.types import Scene
 
-    return Scene.from_file(path)
+    return read_yaml(path, Scene)
 
 
 def _read_pins(path: Path) -> Any:
@@ -155,7 +148,6 @@ LANDMARKS = Files(_read_landmarks, _write_landmarks, (".pts", ".csv", ".npy"))
 MESH = Files(write=_write_mesh, suffixes=MESHES)
 TEXTURED_MESH = Files(write=_write_textured, suffixes=MESHES)
 MODEL = Files(_read_model, _write_model, (".safetensors",))
-LABEL_WEIGHTS = Files(_read_label_weights)
 ENVIRONMENT = Files(_read_environment, _write_environment, (".exr", ".hdr", ".pic", *PICTURES))
 SCENE = Files(_read_scene)
 PINS = Files(_read_pins)

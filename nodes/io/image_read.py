@@ -38,14 +38,11 @@ ORIENTATION = 274
 BITS_PER_SAMPLE = 258
 
 
-SAMPLE_FORMAT = 339
-
-
 ICC_PROFILE = 34675
 
 
 _KEPT_TIFF_TAGS = (270, 271, 272, 305, 306, 315, 33432)
-"""Description, make, model, software, time, artist, copyright: what of a TIFF's tags counts as its EXIF."""
+"""Description, make, model, software, time, artist, copyright: the tags of a TIFF that are kept as its EXIF."""
 
 
 _DAMAGE = (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, TypeError, OverflowError, cv2.error)
@@ -54,8 +51,8 @@ _DAMAGE = (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, Typ
 
 @dataclass
 class Picture:
-    """An opened file: nothing but its header is read. `tags` are a TIFF's; `image` is None for a TIFF that Pillow does
-    not know how to decode (floating-point color)."""
+    """An opened file of which only the header is read. `tags` are a TIFF's; `image` is None for a TIFF that Pillow
+    cannot decode (floating-point color)."""
 
     format: str
     image: Any
@@ -221,7 +218,7 @@ def _decode(path: Path, picture: Picture, icc: bytes | None) -> tuple[FloatArray
 
 
 def _cmyk_to_srgb(path: Path, image: Any, icc: bytes | None) -> NDArray[np.uint8]:
-    """Ink to light: through the embedded profile, or without one by the plain formula."""
+    """CMYK to sRGB by the embedded profile; without one by Pillow's formula."""
     from io import BytesIO
 
     from PIL import ImageCms
@@ -238,7 +235,7 @@ def _cmyk_to_srgb(path: Path, image: Any, icc: bytes | None) -> NDArray[np.uint8
 def _decode_deep(path: Path, picture: Picture) -> FloatArray:
     """16-bit and floating-point samples, by OpenCV."""
     if picture.format == "PNG":
-        picture.image.verify()  # OpenCV fills what is cut off with black and says nothing
+        picture.image.verify()  # OpenCV fills a truncated file with black, without an error
     samples = cv2.imdecode(np.fromfile(path, np.uint8), cv2.IMREAD_UNCHANGED)
     if samples is None:
         raise UnreadableFile(path, f"this kind of {picture.format} ({picture.bits} bits a channel) cannot be decoded")
@@ -260,8 +257,8 @@ def _unit(samples: NDArray[Any]) -> FloatArray:
 
 
 def _already_upright(picture: Picture) -> bool:
-    """Whether a decoded TIFF, unlike every other format, has been turned by its decoder: OpenCV always does, Pillow in
-    newer versions, and then it drops the tag."""
+    """Whether the decoder of a TIFF has applied the orientation: OpenCV always does, newer versions of Pillow do and
+    drop the tag. For other formats no decoder does."""
     return picture.bits > 8 or picture.image is None or ORIENTATION not in picture.image.getexif()
 
 

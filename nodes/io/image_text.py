@@ -1,7 +1,7 @@
-"""A few words kept inside a picture file: where it came from, so that it can be made again.
+"""Text kept inside a picture file: which run made it, so that it can be made again.
 
-One entry called "graphface" holds the whole mapping as JSON: in PNG an international text chunk, elsewhere an attribute
-of an XMP packet. XMP has a place of its own in JPEG, WebP and TIFF, so the photographer's EXIF stays as it was.
+An entry called "graphface" holds a mapping of texts as JSON: in PNG an international text chunk, elsewhere an attribute
+of an XMP packet. JPEG, WebP and TIFF store XMP apart from EXIF, so the photographer's EXIF stays as it is.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ XMP = 700
 
 
 MAX_TEXT = 16_000_000
-"""Characters; a longer text in a file is not believed."""
+"""Bytes; a longer text in a file is refused."""
 
 
 _XMP = (
@@ -37,10 +37,10 @@ _XMP = (
 
 
 def read_text(path: Path) -> dict[str, str]:
-    """The words that `write_image(..., text=...)` stored in a picture file; {} where there are none.
+    """The texts that `write_image(..., text=...)` stored in a picture file; {} where there are none.
 
     Raises:
-        UnreadableFile: no picture, or its words are damaged.
+        UnreadableFile: no picture, or its text is damaged.
     """
     path = Path(path)
     with open_picture(path) as picture:
@@ -55,14 +55,14 @@ def read_text(path: Path) -> dict[str, str]:
     if stored is None:
         return {}
     try:
-        words = json.loads(_unpacked(str(stored)))
-        return {str(key): str(value) for key, value in words.items()}
+        texts = json.loads(_unpacked(str(stored)))
+        return {str(key): str(value) for key, value in texts.items()}
     except (ValueError, AttributeError, zlib.error) as error:
         raise UnreadableFile(path, f"the graphface text inside is damaged ({error})") from error
 
 
 def packed(text: Mapping[str, str]) -> str:
-    """The mapping as JSON; from 16 KB on compressed (JPEG has room for 64 KB)."""
+    """The mapping as JSON; compressed from 16 KB on (a segment of a JPEG holds 64 KB)."""
     plain = json.dumps(dict(text), ensure_ascii=False, separators=(",", ":"))
     if len(plain) < 16_384:
         return plain

@@ -1,8 +1,8 @@
-"""Images to picture files, with the alpha, the profile and the EXIF they came with.
+"""Images to picture files, with their alpha, color profile and EXIF.
 
-A file is written beside its place and moved there when complete, so nobody ever sees half a picture. 16-bit color is
-written without Pillow, which has no mode for it: PNG by OpenCV with our own metadata chunks, TIFF as one strip under a
-directory that Pillow builds.
+A file is written under another name and renamed when it is complete, so there is never half a picture. 16-bit color is
+written without Pillow, which has no mode for it: PNG by OpenCV with metadata chunks that are inserted here, TIFF as one
+strip after a directory that Pillow encodes.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _DEFLATE_LEVEL = 2
 
 
 _EQUAL = 1 / 65535
-"""Channels that differ by less are the same grey."""
+"""Difference of two channels below which a pixel is grey."""
 
 
 _MAX_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
@@ -49,7 +49,7 @@ _MAX_JPEG_SEGMENT = 65_000
 
 @dataclass(frozen=True)
 class _Sheet:
-    """What goes into a file. `samples` are uint8 or uint16, (H, W, n): n is 1 for grey, 3 for RGB, 4 with alpha."""
+    """The content of a file. `samples` are uint8 or uint16 (H, W, n): n is 1 for grey, 3 for RGB, 4 with alpha."""
 
     samples: NDArray[Any]
     icc: bytes | None = None
@@ -66,7 +66,7 @@ def write_image(image: Image, path: Path, *, text: Mapping[str, str] | None = No
     Args:
         image: finite pixels.
         path: .png, .jpg, .jpeg, .webp, .tif or .tiff, in a folder that exists.
-        text: words kept inside the file; `read_text` finds them.
+        text: texts kept inside the file, see `read_text`.
 
     Raises:
         UnwritableFile: unknown suffix, no such folder, not permitted, disk full, too large for the format, or pixels
@@ -93,7 +93,7 @@ def write_picture(pixels: NDArray[np.uint8], path: Path, *, text: Mapping[str, s
     """Write an array uint8, H x W (grey), H x W x 3 (RGB) or H x W x 4 (RGB and alpha), as it is.
 
     Args:
-        text: words kept inside the file; `read_text` finds them.
+        text: texts kept inside the file, see `read_text`.
 
     Raises:
         UnwritableFile: see `write_image`.
@@ -148,7 +148,7 @@ def _quantized(pixels: FloatArray, deep: bool) -> NDArray[Any]:
 
 
 def _fitting_profile(file: FileFormat, *, color: bool) -> bytes | None:
-    """The profile, unless it is for another kind of picture (a grey photo that has been given color)."""
+    """The profile if it is for pictures of this kind; a grey photo may have become a colored one."""
     if file.icc is None or file.icc[16:20] == (b"RGB " if color else b"GRAY"):
         return file.icc
     if color or file.icc[16:20] != b"RGB ":
@@ -191,11 +191,11 @@ def _webp(sheet: _Sheet) -> bytes:
 
 
 def _blocks(sheet: _Sheet, segments: bool) -> dict[str, Any]:
-    """Pillow's options for profile, EXIF and text; in JPEG a segment holds 64 KB, and what is longer is left out."""
+    """Pillow's options for profile, EXIF and text; a segment of a JPEG holds 64 KB, and what is longer is left out."""
     xmp = xmp_packet(sheet.text) if sheet.text else None
     exif = sheet.exif
     if segments and xmp is not None and len(xmp) > _MAX_JPEG_SEGMENT:
-        warn("the text is too long for a JPEG and is left out; PNG has room for it")
+        warn("the text is too long for a JPEG and is left out; use .png for it")
         xmp = None
     if segments and exif is not None and len(exif) > _MAX_JPEG_SEGMENT:
         warn("the EXIF is too long for a JPEG and is left out")
@@ -205,7 +205,7 @@ def _blocks(sheet: _Sheet, segments: bool) -> dict[str, Any]:
 
 
 def _png(sheet: _Sheet) -> bytes:
-    """Encoded by OpenCV, with our chunks put in after the header (33 bytes: signature and IHDR)."""
+    """Encoded by OpenCV, with metadata chunks inserted after the header (33 bytes: signature and IHDR)."""
     samples = sheet.samples
     if samples.shape[2] >= 3:
         samples = samples[..., [2, 1, 0, 3][: samples.shape[2]]]

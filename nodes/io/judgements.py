@@ -14,22 +14,22 @@ from graphface.nodes.types import Judgement, Judgements
 def read_judgements(path: Path) -> Judgements:
     """Read the JSON of *Intrinsic Images in the Wild*: `intrinsic_points` and `intrinsic_comparisons`.
 
-    Comparisons that people did not settle (no `darker`, no positive `darker_score`) are left out.
+    Undecided comparisons (no `darker`, no positive `darker_score`) are left out.
 
     Raises:
         UnreadableFile: the file is not JSON of that form.
     """
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))
-        places = {p["id"]: (float(p["x"]), float(p["y"])) for p in stored["intrinsic_points"]}
-        return Judgements(tuple(_settled(stored["intrinsic_comparisons"], places)))
+        points = {p["id"]: (float(p["x"]), float(p["y"])) for p in stored["intrinsic_points"]}
+        return Judgements(tuple(_decided(stored["intrinsic_comparisons"], points)))
     except (OSError, ValueError, KeyError, TypeError) as error:
         reason = f"no judgements in the form of Intrinsic Images in the Wild ({type(error).__name__}: {error})"
         raise UnreadableFile(path, reason) from None
 
 
-def _settled(comparisons: Iterable[dict[str, Any]], places: dict[Any, tuple[float, float]]) -> Iterable[Judgement]:
-    for said in comparisons:
-        weight = said["darker_score"]
-        if said["darker"] in ("1", "2", "E") and weight is not None and weight > 0:
-            yield Judgement(places[said["point1"]], places[said["point2"]], said["darker"], float(weight))
+def _decided(comparisons: Iterable[dict[str, Any]], points: dict[Any, tuple[float, float]]) -> Iterable[Judgement]:
+    for comparison in comparisons:
+        weight, darker = comparison["darker_score"], comparison["darker"]
+        if darker in ("1", "2", "E") and weight is not None and weight > 0:
+            yield Judgement(points[comparison["point1"]], points[comparison["point2"]], darker, float(weight))

@@ -1,4 +1,4 @@
-"""Reading points from a file: iBUG .pts, comma- or space-separated text, NumPy .npy."""
+"""Files of landmarks: iBUG .pts, comma- or space-separated text, NumPy .npy."""
 
 from __future__ import annotations
 

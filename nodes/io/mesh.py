@@ -1,4 +1,4 @@
-"""Meshes for other programs: OBJ, PLY, glTF and GLB, with the photo's face as texture, written by trimesh."""
+"""Files of meshes: OBJ, PLY, glTF and GLB, with a texture, written by trimesh."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from graphface import UnwritableFile, UsageError
 from graphface.nodes.face_coordinates import mesh_uv
-from graphface.nodes.io.files import MESHES
+from graphface.nodes.io.suffixes import MESHES
 from graphface.nodes.types import Image, Mesh, Texture
 
 

@@ -30,7 +30,7 @@ def read_panorama(path: Path) -> Environment:
 
 
 def write_panorama(environment: Environment, path: Path) -> None:
-    """Write as the suffix says: .exr (float), .hdr, or any picture (encoded to sRGB, clipped).
+    """Write in the format of the suffix: .exr (float), .hdr, or any picture (encoded to sRGB, clipped).
 
     Raises:
         UnwritableFile: the folder cannot be written to, or the suffix is unknown.

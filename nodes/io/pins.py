@@ -1,4 +1,4 @@
-"""Reading correspondences that were set by hand."""
+"""Files of correspondences that were set by hand."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from graphface import Evaluator, MemoryTier, Result
 from graphface.nodes.bench.geometry_graphs import model_graph
 from graphface.nodes.bench.heads import Head, heads_of
 from graphface.nodes.learning.surface_relief import Difference, learned_relief, normal_difference, with_relief
-from graphface.nodes.metrics.geometry import mean_angle
+from graphface.nodes.metrics import normal_angle
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.morphable.storage import refined
 
@@ -63,7 +63,7 @@ class _Fitted:
         return normal_difference(found["mesh"], found["surface"], self._head.normals, self._head.face)
 
     def degrees_off(self, model: MorphableModel) -> float:
-        return mean_angle(self._fit(model)["surface"].normals, self._head.normals, self._head.face)
+        return normal_angle(self._fit(model)["surface"].normals, self._head.normals, self._head.face)
 
     def _fit(self, model: MorphableModel) -> Result:
         asked = ["mesh", "surface"]

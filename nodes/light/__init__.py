@@ -1,1 +1,1 @@
-"""Lights from elsewhere: of another photograph (`scene`), of a panorama (`panorama`)."""
+"""Light from other sources than a scene file: another photograph (`scene`), a panorama (`panorama`)."""

@@ -1,4 +1,4 @@
-"""The surroundings as light: a panorama projected to spherical harmonics, where a scene asks for it."""
+"""A panorama as light, for scenes that ask for it."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from graphface.nodes.types import Environment, Lighting
 
 @node("light.panorama")
 def panorama(environment: Environment | None) -> Lighting:
-    """`sh.from_environment` of order 2 for a graph input that may be left out.
+    """The second-order irradiance of a panorama (see `sh.from_environment`), from a graph input that may be missing.
 
     Raises:
-        UsageError: it was left out and a scene asks for it.
+        UsageError: it is missing, and a scene asks for it.
     """
     if environment is None:
         raise UsageError("the scene has an environment light; give the graph's input `environment` a panorama")

@@ -1,18 +1,26 @@
-"""Figures: plain functions on arrays here, the same as operators `metrics.*` in `operators`."""
+"""Figures that compare a result with the truth: operators `metrics.*`, which may be called on plain arrays too."""
 
-from graphface.nodes.metrics.geometry import direction_angle, iou, landmark_error, mean_angle
-from graphface.nodes.metrics.judgements import whdr
-from graphface.nodes.metrics.pictures import lmse, ms_ssim, psnr, si_mse, si_psnr, ssim
-from graphface.nodes.types import Judgement
+from graphface.nodes.metrics.dssim import dssim
+from graphface.nodes.metrics.iou import iou
+from graphface.nodes.metrics.landmark_error import landmark_error
+from graphface.nodes.metrics.light_angle import light_angle
+from graphface.nodes.metrics.lmse import lmse
+from graphface.nodes.metrics.ms_ssim import ms_ssim
+from graphface.nodes.metrics.normal_angle import normal_angle
+from graphface.nodes.metrics.psnr import psnr
+from graphface.nodes.metrics.si_mse import si_mse
+from graphface.nodes.metrics.si_psnr import si_psnr
+from graphface.nodes.metrics.ssim import ssim
+from graphface.nodes.metrics.whdr import whdr
 
 __all__ = [
-    "Judgement",
-    "direction_angle",
+    "dssim",
     "iou",
     "landmark_error",
+    "light_angle",
     "lmse",
-    "mean_angle",
     "ms_ssim",
+    "normal_angle",
     "psnr",
     "si_mse",
     "si_psnr",

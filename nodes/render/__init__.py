@@ -1,1 +1,1 @@
-"""New light on a face: where it is shaded, what it receives, shadows, highlights, what lies beyond the face."""
+"""Rendering under new light: sample points, irradiance, shadows, highlights, and the picture beyond the face."""

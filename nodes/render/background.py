@@ -25,7 +25,7 @@ def background(
     far: Annotated[float, Field(gt=0, le=10)] = 2.5,
     resolution: Annotated[int, Field(ge=8, le=256)] = 16,
 ) -> Shading:
-    """Keep more of the old shading far from the face, where the face's light says little about the light.
+    """Keep more of the old shading far from the face, where the light of the face is a poor estimate.
 
     Args:
         estimated, relit: both spread over the whole picture; H x W or H x W x 3.

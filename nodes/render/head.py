@@ -1,7 +1,7 @@
 """The rest of the head and the neck as simple solids behind the face mesh, so that they are shaded like the face.
 
 The face models end at the hairline, the jaw and the ears. A shading that only continues beyond them has no shadow of
-the chin on the neck, no shoulder side of the neck that is lit from above, and no side of the head that turns away from
+the chin on the neck, no base of the neck that light from above reaches, and no side of the head that turns away from
 the light. Solids of average size have them approximately.
 """
 
@@ -60,7 +60,7 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     known = np.asarray(np.isfinite(face).all(axis=1))
     pose = _pose(face[known], known)
     if pose is None:
-        warn("render.head: the mesh tells no pose of the face; light beyond it is continued without a head")
+        warn("render.head: the pose of the head cannot be estimated from this mesh; no head is added to it")
         return mesh
     rotation, scale, origin = pose
     in_mean_frame = np.where(known[:, None], (face - origin) @ rotation / scale, facemesh_topology().mean)
@@ -121,7 +121,7 @@ def _normals(face: Points) -> Points:
 def _cranium(face: Points) -> Solid:
     """The ellipsoid of an average cranium, deformed to meet the outline of the face, so that no step casts a shadow.
 
-    Its radius is a kernel regression of the radii that the face asks for, by the angle seen from the middle.
+    Its radius is a kernel regression of the radii that fit the face, by the angle seen from the middle.
 
     Args:
         face: (468, 3) in the mean face's frame.

@@ -71,7 +71,7 @@ def shade(
 
 
 def light_gain(scene: Scene, new: FloatArray, old: FloatArray, weights: FloatArray, floor: float = 0.05) -> float:
-    """One unit of the scene's light in the photo's linear values, as `scene.keep_mean` and `scene.exposure` ask.
+    """One unit of the scene's light in the photo's linear values, by `scene.keep_mean` and `scene.exposure`.
 
     Args:
         new, old: irradiance of the scene and of the photo at the samples, (n,) or (n, 3).

@@ -1,4 +1,4 @@
-"""Shading beyond the face, where there is no geometry (paper, section 4.1, "Rendering and compositing non-face pixels").
+"""Shading beyond the face, where there is no geometry (paper, section 4.1, "compositing non-face pixels").
 
 Each pixel outside the face takes the shading of its nearest face pixel, and the result is smoothed. The estimated and
 the new shading go through the same linear operation. Where they agree on the face they agree everywhere, so an

@@ -39,4 +39,21 @@ def bundle(
     detail: DetailMap,
 ) -> Representation:
     """Put the parts of a representation into one value, which can be saved."""
-    return Representation(**locals())
+    return Representation(
+        working=working,
+        landmarks=landmarks,
+        mesh=mesh,
+        surface=surface,
+        mask=mask,
+        labels=labels,
+        head=head,
+        head_surface=head_surface,
+        head_mask=head_mask,
+        surroundings=surroundings,
+        albedo=albedo,
+        shading=shading,
+        light=light,
+        estimated=estimated,
+        spread=spread,
+        detail=detail,
+    )

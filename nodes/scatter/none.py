@@ -1,4 +1,4 @@
-"""No scattering: skin like plaster."""
+"""No scattering."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Illumination as real spherical harmonics: fit it to a shading, render it, turn it, take it from a panorama.
+"""Illumination as real spherical harmonics: fit it to a shading, render it, rotate it, project a panorama to it.
 
-Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001: the irradiance of
-distant light on a convex Lambertian surface is, to within a percent, a second-order polynomial in the normal. The paper
-fits the first order (section 2, "Face illumination").
+Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001: within a percent,
+the irradiance of distant light on a convex Lambertian surface is a second-order polynomial of the normal. The paper
+fits the first order (section 3, "Face illumination").
 """

@@ -1,4 +1,4 @@
-"""A light seen on a matt white ball."""
+"""A light on a matt white ball."""
 
 from __future__ import annotations
 
@@ -19,14 +19,15 @@ def ball(
     size: Annotated[int, Field(ge=2, le=4096)] = 256,
     brightness: Annotated[float, Field(gt=0, le=100)] = 1.0,
 ) -> Image:
-    """A picture of a sphere under a light, for looking at what `sh.fit` found; black around it.
+    """A picture of a white sphere under a light, to look at a result of `sh.fit`; black around it.
 
     Args:
-        light: in the encoding it was fitted in, which the picture is taken to have (sRGB for the shipped graphs).
-        size: pixels to a side. brightness: factor on the shading.
+        light: in the encoding that it was fitted in; the picture is sRGB, as in the shipped graphs.
+        size: side of the picture in pixels.
+        brightness: factor of the shading.
 
     Returns:
-        size x size, clipped to [0, 1]; alpha is the sphere's antialiased outline.
+        size x size, clipped to [0, 1]; alpha is the antialiased disc of the sphere.
     """
     normals, coverage = _hemisphere(size)
     shading = np.clip(render(light, normals) * np.float32(brightness), 0, 1)
@@ -35,14 +36,17 @@ def ball(
 
 
 def _hemisphere(size: int) -> tuple[Normals, FloatArray]:
-    """The normals of a sphere that fills the square; at its rim they are continued, so that antialiasing finds some."""
+    """Normals and coverage of a sphere that fills the square.
+
+    Beyond the rim normals continue by a pixel, for the antialiased edge.
+    """
     radius = size / 2
     y, x = np.mgrid[0:size, 0:size].astype(np.float32)
     x, y = (x + 0.5 - radius) / radius, (radius - y - 0.5) / radius
     distance = np.hypot(x, y)
-    flat = np.maximum(distance, 1)
+    length = np.maximum(distance, 1)
     z = np.sqrt(np.maximum(1 - distance**2, 0))
     coverage = np.clip((1 - distance) * radius + 0.5, 0, 1)
-    normals = np.stack([x / flat, y / flat, z], axis=2)
+    normals = np.stack([x / length, y / length, z], axis=2)
     normals[coverage == 0] = 0
     return normals, coverage

@@ -1,4 +1,4 @@
-"""A panorama to spherical harmonics."""
+"""A panorama projected to spherical harmonics."""
 
 from __future__ import annotations
 
@@ -15,13 +15,14 @@ from graphface.nodes.types import Environment, Lighting
 def from_environment(environment: Environment, *, order: Annotated[int, Field(ge=0, le=3)] = 2) -> Lighting:
     """The irradiance of a panorama as a light.
 
-    c_lm = (A_l / pi) * integral of L(w) Y_lm(w), by summation over pixels with their solid angles.
+    c_lm = (A_l / pi) * integral of L(w) Y_lm(w) dw (Ramamoorthi and Hanrahan 2001, with A_l of their equation 8), as a
+    sum over pixels times their solid angles.
 
     Args:
-        environment: radiance, linear.
-        order: 2 holds all but a percent of any light.
+        environment: L, radiance, linear.
+        order: 2 has all but a percent of any irradiance.
 
     Returns:
-        (n, 3) coefficients, linear.
+        Coefficients ((order + 1)^2, 3), linear; radiance 1 from everywhere is irradiance 1.
     """
     return environment_light(environment, order)

@@ -1,4 +1,4 @@
-"""Shading of normals under a spherical-harmonic light."""
+"""The shading of normals under a spherical-harmonic light."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from graphface.nodes.types import Lighting, Normals, Shading
 
 @node("sh.render")
 def render(light: Lighting, normals: Normals) -> Shading:
-    """The shading of a surface under a light: sum_i c_i Y_i(n), never below 0; 0 where there is no surface.
+    """SH(n, l) = max(0, sum_i l_i Y_i(n)), the shading of a surface under a light; 0 where there is no surface.
 
     Returns:
         float32, H x W, or H x W x 3 for a colored light.

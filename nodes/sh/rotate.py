@@ -1,4 +1,4 @@
-"""Turning a light around the face."""
+"""A light rotated around the face."""
 
 from __future__ import annotations
 
@@ -15,10 +15,13 @@ Angle = Annotated[float, Field(ge=-360, le=360)]
 
 @node("sh.rotate")
 def rotate(light: Lighting, *, azimuth: Angle = 0.0, elevation: Angle = 0.0, roll: Angle = 0.0) -> Lighting:
-    """The same light from elsewhere: what came from the viewer comes from (azimuth, elevation) afterwards.
+    """The light rotated by `roll`, then by `elevation`, then by `azimuth`.
+
+    Light from the viewer's direction then comes from (azimuth, elevation).
 
     Args:
-        azimuth: degrees, positive to the picture's right. elevation: degrees, positive upwards, before the azimuth.
-        roll: degrees about the viewing axis, positive counter-clockwise in the picture, before both.
+        azimuth: degrees, positive to the picture's right.
+        elevation: degrees, positive upwards.
+        roll: degrees about the viewing axis, positive counter-clockwise in the picture.
     """
     return rotated(light, azimuth, elevation, roll)

@@ -1,4 +1,4 @@
-"""Spherical harmonics to a panorama."""
+"""Spherical harmonics as a panorama."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pydantic import Field
 from graphface import node, warn
 from graphface.nodes.environment import LAMBERT, directions
 from graphface.nodes.harmonics import basis
-from graphface.nodes.types import Environment, FloatArray, Lighting
+from graphface.nodes.types import Environment, Lighting
 
 
 @node("sh.to_environment")
@@ -23,9 +23,9 @@ def to_environment(
     """A light as a panorama, H x 2H.
 
     Args:
-        quantity: "irradiance" shows what each direction's surface would receive; "radiance" undoes Lambert's dimming
-            and gives the smoothest panorama behind the light (order 3 is left out: no surface shows it). Negative
-            values, which such few orders bring along, become 0.
+        quantity: "irradiance" is that of a surface facing each direction. "radiance" divides by the attenuation A_l of
+            a Lambertian surface, which gives the smoothest panorama with this irradiance; order 3 is left out, because
+            it has no irradiance. Negative values, which a truncated series has, become 0.
     """
     coefficients = light.coefficients.reshape(len(light.coefficients), -1).astype(np.float64)
     if quantity == "radiance":
@@ -36,8 +36,4 @@ def to_environment(
     order = round(float(np.sqrt(len(coefficients)))) - 1
     values = basis(directions(height, 2 * height).reshape(-1, 3), order) @ coefficients
     radiance = np.maximum(values, 0).astype(np.float32).reshape(height, 2 * height, -1)
-    return Environment(_three_channels(radiance))
-
-
-def _three_channels(values: FloatArray) -> FloatArray:
-    return np.ascontiguousarray(np.broadcast_to(values, (*values.shape[:2], 3)))
+    return Environment(np.ascontiguousarray(np.broadcast_to(radiance, (height, 2 * height, 3))))

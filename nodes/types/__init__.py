@@ -1,12 +1,11 @@
-"""The values that travel between face operators.
+"""The values that travel between face operators; they read and write no files.
 
-Maps (masks, normals, depth, albedo, shading, detail) are plain float32 arrays whose meaning stands in their type; what
-has several parts is a frozen dataclass. Conventions (pixel coordinates, camera frame, color encoding) are those of
-every operator, so they are stated once, here:
+Maps (masks, normals, depth, albedo, shading, detail) are float32 arrays whose meaning is their type. Values of several
+parts are frozen dataclasses. The conventions below hold for every operator:
 
-- pixels: x right, y down, integer coordinates at pixel centres;
-- camera frame: right-handed, x right, y up, z towards the viewer, one unit = one pixel at the face's depth;
-- color: RGB, nominally 0..1, sRGB-encoded unless `Image.encoding` says "linear".
+- pixels: x to the right, y down, integer coordinates at pixel centres;
+- camera frame: right-handed, x to the right, y up, z towards the viewer; a unit is a pixel at the face's depth;
+- color: RGB, nominally 0..1, sRGB-encoded unless `Image.encoding` is "linear".
 """
 
 from graphface.nodes.types.appearance import DetailMap, Intrinsic, Texture, TexturedMesh

@@ -1,8 +1,8 @@
-"""What a face looks like: a picture split into albedo and shading, detail maps, textures."""
+"""What a face looks like: albedo and shading of a picture, detail maps, textures."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,12 @@ from graphface.nodes.types.pictures import picture_gain, picture_signed
 
 @dataclass(frozen=True)
 class Intrinsic:
-    """A picture split into `albedo` (H x W x 3) and `shading` (H x W): their product is the picture."""
+    """A picture split into albedo and shading; their product is the picture.
+
+    Attributes:
+        albedo: float32 H x W x 3, 0 or more.
+        shading: float32 H x W, above 0; both in the picture's encoding.
+    """
 
     albedo: Albedo
     shading: Shading
@@ -25,20 +30,41 @@ class Intrinsic:
 class DetailMap:
     """What the photo has and rendering lacks: photo = gain * rendering + offset.
 
-    One form for every method: the paper's additive map is all `offset` (`gain` None stands for 1), the shading ratio is
-    all `gain`. Whoever recombines (`graphface.nodes.rendering.applied`) needs not know which method it was.
+    One form for all methods: the paper's additive map is an offset alone, the shading ratio mainly a gain. To recombine
+    (`graphface.nodes.rendering.applied`) the method need not be known.
 
-    Where there is a `pivot`, the gain holds up to that rendering and light beyond it adds as it is:
+    With a pivot the gain applies up to that rendering, and light above it is added as it is:
     photo = gain * min(rendering, pivot) + max(rendering - pivot, 0) + offset.
 
-    Where there is a `ceiling`, all but that light beyond the pivot stays below it: so a photo whose clipped highlights
-    were reconstructed beyond what it shows is shown as it is.
+    With a ceiling, everything except the light above the pivot is limited to it. So a photo whose clipped highlights
+    were reconstructed beyond its own values is returned as it is.
+
+    Attributes:
+        offset: float32 H x W x 3, signed, in the photo's encoding.
+        gain: float32 H x W x 3, 0 or more; None stands for 1.
+        pivot: float32 H x W x 3, a rendering, or None.
+        ceiling: float32 H x W x 3, a picture, or None.
     """
 
     offset: Detail
     gain: Gain | None = None
     pivot: Albedo | None = None
     ceiling: FloatArray | None = None
+
+    def paired_with(self, other: DetailMap) -> dict[str, tuple[FloatArray, FloatArray]]:
+        """The parts that this map or another one of the same size has, by name; one that is missing is 0 or a factor 1.
+
+        >>> one, other = DetailMap(np.ones((1, 1, 3))), DetailMap(np.zeros((1, 1, 3)), gain=np.full((1, 1, 3), 2))
+        >>> {name: (float(a.mean()), float(b.mean())) for name, (a, b) in one.paired_with(other).items()}
+        {'offset': (1.0, 0.0), 'gain': (1.0, 2.0)}
+        """
+        pairs = {}
+        for name in (field.name for field in fields(self)):
+            own, others = getattr(self, name), getattr(other, name)
+            if own is not None or others is not None:
+                neutral = np.full(self.offset.shape, 0 if name == "offset" else 1, np.float32)
+                pairs[name] = (neutral if own is None else own, neutral if others is None else others)
+        return pairs
 
     @staticmethod
     def picture(detail: DetailMap) -> NDArray[np.uint8]:
@@ -47,7 +73,7 @@ class DetailMap:
 
 @dataclass(frozen=True)
 class TexturedMesh:
-    """A mesh and its colors; written as .obj, .ply, .glb or .gltf."""
+    """A mesh and its colors."""
 
     mesh: Mesh
     texture: Texture
@@ -55,7 +81,12 @@ class TexturedMesh:
 
 @dataclass(frozen=True)
 class Texture:
-    """A face's colors in the model's texture space: `image`, square; `seen` how far the photo shows a texel."""
+    """A face's colors in the model's texture space.
+
+    Attributes:
+        image: square, row 0 at v = 1.
+        seen: float32, of the same size, 0..1: how far the photo shows a texel.
+    """
 
     image: Image
     seen: Mask

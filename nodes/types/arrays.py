@@ -1,4 +1,4 @@
-"""Arrays whose meaning stands in their type: masks, normals, depth, albedo, shading, detail; float32 all of them."""
+"""Arrays whose meaning is their type: masks, normals, depth, albedo, shading, detail; all float32."""
 
 from __future__ import annotations
 
@@ -64,22 +64,25 @@ Shading = Annotated[
 
 
 Detail = Annotated[
-    FloatArray, ArrayType("Detail", "H W 3", doc="What rendering leaves over, signed.", picture=picture_signed)
+    FloatArray, ArrayType("Detail", "H W 3", doc="Photo minus rendering, signed.", picture=picture_signed)
 ]
 
 
-Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; zero: none.")]
+Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; (0, 0, 0): none.")]
 
 
 Gain = Annotated[
     FloatArray,
-    ArrayType("Gain", "H W 3", doc="What rendering falls short of, as a factor.", picture=picture_gain, low=0),
+    ArrayType("Gain", "H W 3", doc="Photo over rendering, a factor.", picture=picture_gain, low=0),
 ]
 
 
 FaceCoordinates = Annotated[
-    FloatArray, ArrayType("FaceCoordinates", "H W 2", low=0, high=1, doc="Point on the face (u, v); v up; -1 off it.")
+    FloatArray,
+    ArrayType("FaceCoordinates", "H W 2", low=-1, high=1, doc="Point on the face (u, v), 0..1, v up; -1 off it."),
 ]
 
 
-Visibility = Annotated[FloatArray, ArrayType("Visibility", "V", low=0, high=1, doc="How far each vertex is seen.")]
+Visibility = Annotated[
+    FloatArray, ArrayType("Visibility", "V", low=0, high=1, doc="How far the camera sees each vertex, 0..1.")
+]

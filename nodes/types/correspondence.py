@@ -1,4 +1,4 @@
-"""For every pixel of the input, its point's place in the reference."""
+"""For every pixel of the input, the position of its point in the reference."""
 
 from __future__ import annotations
 
@@ -9,16 +9,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.types.arrays import FloatArray, Mask
+from graphface.nodes.types.pictures import as_bytes
 
 
 @dataclass(frozen=True)
 class Correspondence:
-    """Input pixel to reference pixel.
+    """Input pixels to positions in the reference.
 
-    `places` float32 H x W x 2, of the input's size: (x, y) in the reference, 0 off the mesh; `inside` H x W: 1
-    where the input's mesh lies; `valid` H x W: how far the reference shows the point at that place. Where it does not,
-    `mirrored` (H x W x 2, or None) is the place of the point's mirror image on the other half of the face, as far as
-    `mirrored_valid` says. `size` is the reference's (height, width).
+    Attributes:
+        places: float32 H x W x 2, of the input's size: (x, y) in pixels of the reference; 0 off the mesh.
+        inside: float32 H x W, 1 where the input's mesh is, else 0.
+        valid: float32 H x W, 0..1: how far the reference shows the point at `places`.
+        size: (height, width) of the reference.
+        mirrored: float32 H x W x 2, the position of the point's mirror image on the other half of the face, or None.
+        mirrored_valid: float32 H x W, 0..1: weight of the mirror image, 0 where the reference shows the point itself;
+            or None.
     """
 
     places: FloatArray
@@ -30,7 +35,7 @@ class Correspondence:
 
     @property
     def known(self) -> Mask:
-        """How far either place shows the point."""
+        """float32 H x W, 0..1: how far the reference shows the point or its mirror image."""
         if self.mirrored_valid is None:
             return self.valid
         both: Mask = np.maximum(self.valid, self.mirrored_valid)
@@ -38,17 +43,21 @@ class Correspondence:
 
     @staticmethod
     def picture(correspondence: Correspondence) -> NDArray[np.uint8]:
-        """A checkerboard of the reference carried to the input; grey where nothing is known."""
+        """A checkerboard of the reference drawn onto the input; grey where nothing corresponds."""
         height, width = correspondence.size
         cell = max(height, width, 1) / 32
         board = (np.floor(correspondence.places / cell).sum(axis=2) % 2) * 0.6 + 0.2
         shown = np.where(correspondence.inside * correspondence.valid > 0.5, board, 0.5)
-        return np.repeat(np.rint(shown * 255).astype(np.uint8)[..., None], 3, axis=2)
+        return as_bytes(shown)
 
 
 @dataclass(frozen=True)
 class Pins:
-    """Correspondences set by hand: float32 (n, 4), each row x, y in the input and x, y in the reference."""
+    """Correspondences set by hand.
+
+    Attributes:
+        points: float32 (n, 4), each row x, y in the input and x, y in the reference, in pixels.
+    """
 
     points: FloatArray
 

@@ -1,4 +1,4 @@
-"""Soft masks that say which part of a face or of a head each pixel shows."""
+"""Soft masks of the parts of a face and of a head."""
 
 from __future__ import annotations
 
@@ -13,8 +13,13 @@ from graphface.nodes.types.pictures import as_bytes
 
 @dataclass(frozen=True)
 class Features:
-    """Masks H x W: openings `eyes` and `mouth`; `lips` without the mouth, and the skin `around` them with the corners
-    of the mouth; `lids`, `brows`, `nose`, `cheeks`."""
+    """Parts of the face, float32 H x W each, 0..1.
+
+    Attributes:
+        eyes, mouth: the openings.
+        lips: without the opening of the mouth. around: the skin around the lips, with the corners of the mouth.
+        lids, brows, nose, cheeks: of both sides.
+    """
 
     eyes: Mask
     mouth: Mask
@@ -45,14 +50,17 @@ class Features:
         red = np.maximum(features.lips, 0.5 * features.cheeks)
         green = np.maximum(features.lids, 0.5 * features.nose)
         colors = np.stack([np.maximum(c, openings) for c in (red, green, features.brows)], axis=2)
-        return np.asarray(np.rint(np.clip(colors, 0, 1) * 255), np.uint8)
+        return as_bytes(colors)
 
 
 @dataclass(frozen=True)
 class HeadMasks:
-    """What the projected geometry alone says (paper, section 2, "Face segmentation"); each is 0 or 1, H x W.
+    """Masks of the projected geometry (paper, section 3, "Face segmentation"), float32 H x W each, 0 or 1.
 
-    `conservative` is surely face, `normal` about face and head with ears, `aggressive` all that may be face.
+    Attributes:
+        conservative: certainly face.
+        normal: approximately face and head with ears.
+        aggressive: an expansion of `normal`.
     """
 
     conservative: Mask
@@ -62,7 +70,7 @@ class HeadMasks:
 
 @dataclass(frozen=True)
 class Segmentation:
-    """How much of each pixel is face (with ears and neck), hair, and background: H x W each, summing to 1."""
+    """The shares of face (with ears and neck), hair and background at each pixel, float32 H x W each; they sum to 1."""
 
     face: Mask
     hair: Mask
@@ -77,7 +85,10 @@ class Segmentation:
 
 @dataclass(frozen=True)
 class Regions:
-    """Nine soft masks, H x W each; they sum to at most 1."""
+    """The nine regions of detail transfer (paper, section 4.3), float32 H x W each, 0..1; they sum to at most 1.
+
+    Left and right are the person's own.
+    """
 
     left_brow: Mask
     right_brow: Mask

@@ -15,8 +15,10 @@ from graphface.nodes.types.arrays import Depth, FloatArray, Mask, Normals
 class Camera:
     """Camera frame to pixels: u = cx + scale * x / (1 - z * nearness), v = cy - scale * y / (1 - z * nearness).
 
-    `nearness` is one over the camera's distance: 0 is the weak perspective (a camera infinitely far away), and full
-    perspective is continuous with it.
+    Attributes:
+        scale: pixels per unit of the camera frame at z = 0.
+        center: (cx, cy), in pixels.
+        nearness: one over the distance of the camera, 0 or more. 0 is weak perspective, a camera infinitely far away.
     """
 
     scale: float = 1.0
@@ -35,9 +37,11 @@ class Camera:
 class Landmarks:
     """The points found on one face.
 
-    `points` float32 (n, 3): x, y in pixels, z in pixels towards the viewer (0 where the scheme has no depth).
-    `scheme` names the points: "facemesh468" or "ibug68". `score` is the detector's confidence, 0..1. `faces` is how
-    many faces the photo has.
+    Attributes:
+        points: float32 (n, 3): x, y in pixels; z in pixels towards the viewer, 0 where the scheme has no depth.
+        scheme: which points they are, "facemesh468" or "ibug68".
+        score: the detector's confidence, 0..1.
+        faces: number of faces in the photo.
     """
 
     points: FloatArray
@@ -54,13 +58,19 @@ class Landmarks:
 
 @dataclass(frozen=True)
 class FitRecord:
-    """How a face model was fitted: what it found, and how well.
+    """The result of fitting a face model, and how good it is.
 
-    `identity` and `expression` float32 (K,) in standard deviations; `rotation` float64 (3, 3), face to camera frame;
-    `scale` pixels for one outer-eye-corner distance of the mean face; `distance` of the camera in that unit, 0 for the
-    weak perspective. `errors` float32 (n,) pixels from each landmark to its vertex, NaN-free: 0 where there is no
-    landmark; `residual` their root mean square, robustly weighted; `costs` after each accepted step; `condition` of the
-    last step's equations; `converged` where the cost came to rest.
+    Attributes:
+        model: name of the model.
+        identity, expression: float32 (K,), coefficients in standard deviations.
+        rotation: float64 (3, 3), face to camera frame.
+        scale: pixels per outer-eye-corner distance of the mean face.
+        distance: of the camera in that distance; 0 for weak perspective.
+        residual: robustly weighted root mean square of the errors, pixels.
+        errors: float32 (n,), pixels from each landmark to its vertex; 0 where there is no landmark.
+        costs: float32, before the first and after each accepted step.
+        condition: number of the last step's equations.
+        converged: whether the cost stopped falling before the last iteration.
     """
 
     model: str
@@ -80,11 +90,16 @@ class FitRecord:
 class Mesh:
     """A triangulated face in the camera frame.
 
-    `vertices` float32 (V, 3); `triangles` int32 (T, 3), counter-clockwise seen from outside; `normals` float32 (V, 3)
-    unit; `camera` takes vertices to pixels; `interocular` in pixels. `uv` float32 (V, 2) in [0, 1], v up: where the
-    model's texture has each vertex. `mirror` int32 (V,): the vertex that each becomes in a mirror, where that is known.
-    `facemesh` int32 (468,): the vertex at each of FaceMesh's points, -1 where there is none. `fit` where a model was
-    fitted.
+    Attributes:
+        vertices: float32 (V, 3).
+        triangles: int32 (T, 3), counter-clockwise seen from outside.
+        normals: float32 (V, 3), unit length.
+        camera: takes vertices to pixels.
+        interocular: distance between the outer eye corners, pixels.
+        uv: float32 (V, 2) in [0, 1], v up: position of each vertex in the model's texture, or None.
+        mirror: int32, the vertex at the mirror image of each, or None. The vertices that `render.head` adds have none.
+        facemesh: int32 (468,), the vertex at each of FaceMesh's points, -1 where there is none; or None.
+        fit: of a fitted model, else None.
     """
 
     vertices: FloatArray
@@ -100,9 +115,14 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Surface:
-    """A mesh drawn into the picture's pixels.
+    """A mesh rasterized into the picture.
 
-    `triangle` int32 H x W: index of the visible triangle, -1 where there is none; `barycentric` float32 H x W x 3.
+    Attributes:
+        normals: float32 H x W x 3, unit length; 0 where there is no surface.
+        depth: float32 H x W, z in the camera frame, pixels; 0 where there is no surface.
+        coverage: float32 H x W, 1 where there is a surface, else 0.
+        triangle: int32 H x W, index of the visible triangle, -1 where there is none.
+        barycentric: float32 H x W x 3, coordinates in it, summing to 1; 0 where there is none.
     """
 
     normals: Normals

@@ -1,4 +1,4 @@
-"""Light as a value: spherical harmonics and panoramas."""
+"""Illumination: spherical harmonics and panoramas."""
 
 from __future__ import annotations
 
@@ -13,8 +13,10 @@ from graphface.nodes.types.image import Image
 
 @dataclass(frozen=True)
 class Lighting:
-    """Spherical-harmonic light: `coefficients` float32 (n,) or (n, 3), real basis in (l, m) order with the constants
-    of Ramamoorthi and Hanrahan 2001; n = 1, 4, 9 or 16. Shading is sum_i coefficients[i] * Y_i(normal).
+    """Spherical-harmonic light; shading is sum_i coefficients[i] * Y_i(normal), see `graphface.nodes.harmonics`.
+
+    Attributes:
+        coefficients: float32 (n,), or (n, 3) with one light per channel; n = 1, 4, 9 or 16, in (l, m) order.
     """
 
     coefficients: FloatArray
@@ -26,8 +28,14 @@ class Lighting:
 
 @dataclass(frozen=True)
 class LightingFit:
-    """A fitted light, with `residual` (H x W, shading minus fit inside the mask, else 0), the solve's condition, and
-    the unit `direction` towards most of the light, (0, 0, 0) where it comes evenly."""
+    """A fitted light.
+
+    Attributes:
+        light: in the encoding of the shading that it was fitted to.
+        residual: float32 H x W (x 3), shading minus fit, signed; 0 off the mask.
+        condition: condition number of the unregularized least squares, 1 to 1e12.
+        direction: float32 (3,), unit vector towards most of the light; 0 for even light.
+    """
 
     light: Lighting
     residual: Shading
@@ -37,7 +45,11 @@ class LightingFit:
 
 @dataclass(frozen=True)
 class Environment:
-    """Light from every direction: `radiance` float32 H x W x 3, linear, 0 or more; W is usually 2 H."""
+    """Light from every direction as an equirectangular panorama, see `graphface.nodes.environment`.
+
+    Attributes:
+        radiance: float32 H x W x 3, linear, 0 or more; W is usually 2 H.
+    """
 
     radiance: FloatArray
 

@@ -1,4 +1,4 @@
-"""A photograph as a value, and pictures from arrays."""
+"""A photograph, and photographs from arrays."""
 
 from __future__ import annotations
 
@@ -15,10 +15,14 @@ from graphface.nodes.types.pictures import as_bytes
 
 @dataclass(frozen=True)
 class FileFormat:
-    """What a picture file carries besides its pixels, kept so that saving gives it back.
+    """What a picture file has besides its pixels, kept so that saving restores it.
 
-    `bits` is 8 or 16 a channel; `icc` and `exif` are the raw blocks (EXIF with its orientation already applied and
-    reset), `grey` where the file had a single channel.
+    Attributes:
+        name: "PNG", "JPEG", "WEBP" or "TIFF".
+        bits: per channel, 8 or 16.
+        icc: the raw color profile, or None.
+        exif: the raw EXIF block without its orientation, which is already applied; or None.
+        grey: whether the file has a single channel.
     """
 
     name: str = "PNG"
@@ -30,7 +34,14 @@ class FileFormat:
 
 @dataclass(frozen=True)
 class Image:
-    """A photograph: `pixels` float32 H x W x 3 RGB, nominally 0..1; `alpha` float32 H x W or None."""
+    """A photograph.
+
+    Attributes:
+        pixels: float32 H x W x 3, RGB, nominally 0..1.
+        alpha: float32 H x W, 0..1, or None.
+        encoding: of the pixels, "srgb" or "linear".
+        file: what its file had besides.
+    """
 
     pixels: FloatArray
     alpha: FloatArray | None = None
@@ -59,11 +70,11 @@ class Image:
 
 
 BRIGHTEST = 64.0
-"""A float picture above this is taken for one in 0..255, and refused."""
+"""Largest value of a floating-point picture; one with larger values is probably in 0..255, and refused."""
 
 
 def image_from_array(value: object) -> Image:
-    """A picture from what people have in a notebook.
+    """A picture from an array.
 
     Args:
         value: an `Image` (returned as it is), or an array of H x W, H x W x 1 (grey), H x W x 3 (RGB) or H x W x 4

@@ -1,4 +1,4 @@
-"""What people said about which of two points of a picture is darker."""
+"""Human judgements about which of two points of a picture is darker."""
 
 from __future__ import annotations
 
@@ -8,7 +8,13 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class Judgement:
-    """Two points (x, y in shares of width and height), which of them people found darker, and how sure they were."""
+    """One comparison.
+
+    Attributes:
+        first, second: (x, y) in shares of width and height, 0..1.
+        darker: the point that people found darker, "1" or "2"; "E" if they found both equal.
+        weight: their confidence, above 0.
+    """
 
     first: tuple[float, float]
     second: tuple[float, float]
@@ -18,6 +24,6 @@ class Judgement:
 
 @dataclass(frozen=True)
 class Judgements:
-    """What people said about one picture."""
+    """All comparisons of one picture."""
 
     pairs: tuple[Judgement, ...]

@@ -38,7 +38,7 @@ SH_PRESETS: dict[str, tuple[float, ...]] = {
 class Part(BaseModel):
     """What all parts of a scene file have in common: fixed once read, no unknown keys, no NaN."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config: ClassVar[ConfigDict] = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class _Light(Part):

@@ -1,4 +1,4 @@
-"""How values without colors of their own are shown as pictures, uint8 H x W x 3."""
+"""Pictures of values that have no colors of their own: uint8 H x W x 3."""
 
 from __future__ import annotations
 
@@ -11,37 +11,39 @@ FloatArray = NDArray[np.float32]
 
 
 def as_bytes(unit: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
+    """Values in 0..1, H x W or H x W x 3, as bytes; clipped."""
     pixels = np.rint(np.clip(unit, 0, 1) * 255).astype(np.uint8)
     return pixels if pixels.ndim == 3 else np.repeat(pixels[..., None], 3, axis=2)
 
 
 def picture_unit(values: FloatArray) -> NDArray[np.uint8]:
+    """Black is 0, white is 1."""
     return as_bytes(values)
 
 
 def picture_albedo(albedo: FloatArray) -> NDArray[np.uint8]:
-    """Color over shading averages 1 where shading is intensity; half of it is mid grey."""
+    """Mid grey is 1, the mean of color over intensity."""
     return as_bytes(albedo / 2)
 
 
 def picture_normals(normals: FloatArray) -> NDArray[np.uint8]:
-    """Normals as colors, (n + 1) / 2; black where there is no surface (a zero vector)."""
+    """Colors (n + 1) / 2; black where there is no surface."""
     covered = np.any(normals != 0, axis=2, keepdims=True)
     return as_bytes(np.where(covered, (normals + 1) / 2, 0))
 
 
 def picture_signed(values: FloatArray) -> NDArray[np.uint8]:
-    """Mid grey is zero."""
+    """Mid grey is 0."""
     return as_bytes(values + 0.5)
 
 
 def picture_gain(values: FloatArray) -> NDArray[np.uint8]:
-    """Mid grey is one."""
+    """Mid grey is 1."""
     return as_bytes(values / 2)
 
 
 def picture_depth(depth: FloatArray) -> NDArray[np.uint8]:
-    """Near is white, far is dark, no surface (0) is black."""
+    """White is near, dark is far, black where there is no surface."""
     covered = depth != 0
     if not covered.any():
         return as_bytes(np.zeros_like(depth))

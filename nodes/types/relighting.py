@@ -1,4 +1,4 @@
-"""What relighting works out once for all scenes, or once for a scene: samples, shadows, surroundings."""
+"""What relighting computes once for all scenes (samples, surroundings), or once for a scene (shadows)."""
 
 from __future__ import annotations
 
@@ -8,18 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.types.arrays import Encoding, FloatArray, Mask
+from graphface.nodes.types.pictures import as_bytes
 
 
 @dataclass(frozen=True)
 class Samples:
-    """n points of a surface and what is known there before any new light (a G-buffer, packed).
+    """n points of a surface and what is known there before any new light: a packed G-buffer.
 
-    `picture` and `grid` are heights and widths; `cells` and `pixels` intp (n,) the points' places in the two, counted
-    row by row. `normals` (n, 3) unit length; `points` (n, 3) in the camera frame, inter-ocular distances, all 0 where
-    they are not known. `before` is the photo's own shading, (n,) or (n, 3), in `encoding`; `irradiance` the same in
-    linear light, not negative; `weights` (n,) the face's mask. `rim` are cells beside the surface, and `rim_weights`
-    what the sum over the 3 x 3 cells around them must be multiplied by to be the mean of those on the surface.
-    `coverage` H x W is 1 on the surface.
+    Attributes:
+        picture, grid: (height, width) of the picture, H x W, and of the grid that the points lie on, h x w.
+        cells, pixels: intp (n,), row-major index of each point in the grid and in the picture.
+        normals: float32 (n, 3), unit length.
+        points: float32 (n, 3), in the camera frame, in inter-ocular distances; all 0 where they are not known.
+        before: float32 (n,) or (n, 3), the photo's own shading in `encoding`.
+        irradiance: float32 (n,) or (n, 3), the same in linear light, 0 or more.
+        weights: float32 (n,), the face mask, 0..1.
+        rim: intp, row-major indices of the grid's cells beside the surface.
+        rim_weights: float32, for each of them one over the number of its neighbours (of 8) on the surface.
+        coverage: float32 H x W, 1 on the surface, else 0.
+        encoding: the photo's.
     """
 
     picture: tuple[int, int]
@@ -39,13 +46,20 @@ class Samples:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """How a shading goes on beyond a face: all of `render.spread` that the light does not change.
+    """How a shading on a face continues beyond it: all of `render.spread` that does not depend on the light.
 
-    `weight` H x W is the soft mask where there is a surface. The small copy has cells of `cell` x `cell` pixels, h x w
-    of them; the face lies in the cells `window` (top, bottom, left, right). `total` are the weight's means over the
-    window's cells; `nearest` intp h x w, the place of the face cell that each cell copies, counted row by row in the
-    window; `far` h x w, 0..1, how much of the wider of two blurs it takes; `sigma`, the narrower's width in cells.
-    Without a face all but `weight` are empty.
+    The small copy of the picture has blocks of `cell` x `cell` pixels, h x w of them.
+
+    Attributes:
+        weight: float32 H x W, 0..1: the soft face mask where there is a surface, else 0.
+        cell: side of a block, pixels.
+        window: (top, bottom, left, right) in blocks: the part of the copy that has the face.
+        total: float32, the means of `weight` over the blocks of the window.
+        nearest: intp h x w, row-major index in the window of the face block that each block takes its shading from.
+        far: float32 h x w, 0..1: share of the wider of two blurs.
+        sigma: standard deviation of the narrower blur, in blocks.
+
+    Without a face, `total`, `nearest` and `far` are empty.
     """
 
     weight: Mask
@@ -59,10 +73,12 @@ class Surroundings:
 
 @dataclass(frozen=True)
 class Shadows:
-    """How much of each casting light arrives.
+    """The visible share of each shadow-casting light.
 
-    `lights` are places in `Scene.lights`; `visible` float32 (len(lights), h, w), 0..1, over the whole picture on a grid
-    that may be coarser than the picture's, 1 where there is no surface.
+    Attributes:
+        lights: indices in `Scene.lights`.
+        visible: float32 (len(lights), h, w), 0..1, over the whole picture on a grid that may be coarser; 1 where there
+            is no surface.
     """
 
     lights: tuple[int, ...]
@@ -72,5 +88,4 @@ class Shadows:
     def picture(shadows: Shadows) -> NDArray[np.uint8]:
         """The maps side by side."""
         tiles = list(shadows.visible) or [np.ones(shadows.visible.shape[1:], np.float32)]
-        grey = np.rint(np.concatenate(tiles, axis=1) * 255).astype(np.uint8)
-        return np.repeat(grey[..., None], 3, axis=2)
+        return as_bytes(np.concatenate(tiles, axis=1))

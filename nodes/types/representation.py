@@ -1,4 +1,4 @@
-"""The whole representation of a face (paper, section 2) as one value."""
+"""The whole representation of a face (paper, section 3) as one value."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from graphface.nodes.types.relighting import Surroundings
 
 @dataclass(frozen=True)
 class Representation:
-    """Everything that `represent.yaml` finds in a photo; the fields are its outputs of the same names."""
+    """All that `represent.yaml` computes from a photo; the fields are its outputs of the same names."""
 
     working: Image
     landmarks: Landmarks

@@ -13,13 +13,12 @@ An ambient of 1 leaves the brightness as it is, and a scene means the same for a
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
-from graphface import read_yaml, validated
+from graphface import validated
 from graphface.nodes.types.lights import (
     Casting,
     Color,
@@ -119,23 +118,13 @@ class Scene(Part):
         }
 
     @classmethod
-    def from_file(cls, path: Path) -> Scene:
-        """Read a scene file.
-
-        Raises:
-            UnreadableFile: there is no such file, or it is not text.
-            DocumentError: not YAML, or not a scene; every mistake with its line and what was expected.
-        """
-        return read_yaml(path, cls)
-
-    @classmethod
     def coerce(cls, value: object) -> Scene:
-        """A scene from a mapping, or from the path of a scene file.
+        """A scene from a mapping.
 
         Raises:
-            DocumentError, UnreadableFile: as `from_file`.
+            DocumentError: it is not a scene; every mistake, and what was expected.
         """
-        return cls.from_file(Path(value)) if isinstance(value, str | Path) else validated(value, cls)
+        return validated(value, cls)
 
 
 def _toward_viewer(light: Casting) -> float:

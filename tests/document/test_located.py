@@ -1,16 +1,15 @@
 """YAML texts keep their positions, and no text, however hostile, is more than an error."""
 
 import contextlib
-import math
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.document.located import MAX_DEPTH, Map, Seq, parse
-from graphface.document.scalars import scalar
-from graphface.errors import DocumentError, Problem
-from graphface.place import Place, Source
+from graphface.document.located import MAX_DEPTH, Map, Seq, file_source, parse, place_inside
+from graphface.errors import DocumentError, Problem, UnreadableFile
+from graphface.place import Source
 
 
 def read(text: str) -> Map:
@@ -62,74 +61,7 @@ class TestPositions:
             assert source.lines[inner.line - 1][inner.column - 1 :].startswith("sub")
 
 
-class TestExcerpt:
-    def caret(self, line: str, column: int) -> tuple[str, str]:
-        """The excerpt's line, and the character above the caret."""
-        shown, pointer = Place(Source("g", line), 1, column).excerpt.split("\n")
-        return shown, shown[pointer.index("^")]
-
-    def test_caret(self) -> None:
-        """The caret stands under the column."""
-        assert self.caret("abc: def", 6)[1] == "d"
-
-    def test_tab(self) -> None:
-        """A tab takes one column."""
-        assert self.caret("\tabc", 2)[1] == "a"
-
-    def test_long_line(self) -> None:
-        """Of a long line the part around the caret is shown."""
-        shown, above = self.caret("x" * 500 + "Y" + "x" * 500, 501)
-        assert above == "Y"
-        assert len(shown) < 200
-
-    def test_control_characters(self) -> None:
-        """What would move the cursor is not printed."""
-        assert "\x1b" not in Place(Source("g", "\x1b[2Jabc"), 1, 1).excerpt
-
-    def test_outside(self) -> None:
-        """A place behind the end of the text has no excerpt."""
-        assert Place(Source("g", "a"), 7, 1).excerpt == ""
-
-    def test_str(self) -> None:
-        """A place reads as compilers write it."""
-        assert str(Place(Source("g.yaml", "a"), 3, 4)) == "g.yaml:3:4"
-
-
-class TestScalars:
-    @pytest.mark.parametrize(
-        ("text", "value"),
-        [
-            ("12", 12),
-            ("-3", -3),
-            ("+3", 3),
-            ("0x1F", 31),
-            ("0o17", 15),
-            ("017", 17),
-            ("1e0", 1.0),
-            ("1.", 1.0),
-            (".5", 0.5),
-            ("-1.5E-3", -0.0015),
-            ("true", True),
-            ("False", False),
-            ("~", None),
-            ("", None),
-            ("null", None),
-            ("-.inf", -math.inf),
-            ("on", "on"),
-            ("yes", "yes"),
-            ("1_000", "1_000"),
-            ("1:30", "1:30"),
-            ("2024-01-01", "2024-01-01"),
-            ("١٢", "١٢"),
-            ("1e999", math.inf),
-        ],
-    )
-    def test_core_schema(self, text: str, value: object) -> None:
-        """Plain scalars follow YAML 1.2's core schema: `on` is a word, `1e0` a number."""
-        found = scalar(text)
-        assert found == value
-        assert type(found) is type(value)
-
+class TestKeysAndTexts:
     def test_quoted(self) -> None:
         """A quoted scalar is a text."""
         assert dict(read("a: '1'\nb: \"true\"\nc: |\n  3\n")) == {"a": "1", "b": "true", "c": "3\n"}
@@ -138,20 +70,71 @@ class TestScalars:
         """Keys are words whatever they look like."""
         assert list(read("1: a\ntrue: b\nnull: c\n")) == ["1", "true", "null"]
 
-    @pytest.mark.parametrize("text", ["9" * 5000, "-" + "9" * 5000, "0x" + "f" * 100_000, "0o" + "7" * 100_000])
-    def test_huge_integer(self, text: str) -> None:
-        """A number that Python would refuse to print is infinite."""
-        assert scalar(text) == math.inf
 
-    @given(st.text(max_size=20))
-    def test_any_text(self, text: str) -> None:
-        """Every text is some scalar."""
-        assert isinstance(scalar(text), str | int | float | bool | None)
+class TestMerge:
+    def test_entries_of_another_mapping(self) -> None:
+        """`<<` stands for the entries of another mapping; those written here win, wherever they stand."""
+        tree = read("a: &a {x: 1, y: 2}\nb: {y: 3, <<: *a}\nc: {<<: *a, y: 3}\n")
+        assert dict(tree["b"]) == {"y": 3, "x": 1}
+        assert dict(tree["c"]) == {"x": 1, "y": 3}
 
-    @given(st.integers(-(10**30), 10**30) | st.floats(allow_nan=False, allow_infinity=False))
-    def test_numbers_come_back(self, number: float) -> None:
-        """What Python prints for a number is read as that number."""
-        assert scalar(repr(number)) == number
+    def test_several(self) -> None:
+        """Of several mappings the first wins."""
+        tree = read("a: &a {x: 1}\nb: &b {x: 2, y: 2}\nc: {<<: [*a, *b]}\n")
+        assert dict(tree["c"]) == {"x": 1, "y": 2}
+
+    def test_places(self) -> None:
+        """An entry stands where it is written."""
+        tree = read("a: &a {x: 1}\nb: {<<: *a}\n")
+        assert tree["b"].key_place("x").line == 1
+
+    @pytest.mark.parametrize("text", ["a: {<<: 3}", "a: {<<: [3]}", "a: {<<: null}"])
+    def test_no_mapping(self, text: str) -> None:
+        """Anything else is a problem where it stands."""
+        _, (problem,) = parse(Source("g", text))
+        assert problem.place is not None
+        assert problem.place.column == 5
+
+
+class TestPlaceInside:
+    def test_leads_inside(self) -> None:
+        """Keys lead to the place of a value, names that are no keys are passed over."""
+        tree = read("a: {b: [1, {c: 2}]}")
+        found = place_inside(tree, ("a", "b", 1, "member", "c"))
+        assert found is not None
+        assert found.column == 16
+
+    def test_nowhere(self) -> None:
+        """What leads nowhere has no place."""
+        assert place_inside(read("a: 1"), ("b", 0)) is None
+        assert place_inside({"a": 1}, ("a",)) is None
+
+
+class TestFileSource:
+    def test_text(self, tmp_path: Path) -> None:
+        """UTF-8, with or without a byte order mark."""
+        for name, content in (("a", b"\xef\xbb\xbfa: 1"), ("b", b"a: 1")):
+            (tmp_path / name).write_bytes(content)
+            assert file_source(tmp_path / name).text == "a: 1"
+
+    def test_not_text(self, tmp_path: Path) -> None:
+        """The first byte that is no text is named."""
+        (tmp_path / "a").write_bytes(b"a: \xff")
+        with pytest.raises(UnreadableFile, match="byte 3 is 0xff"):
+            file_source(tmp_path / "a")
+
+    def test_size(self, tmp_path: Path) -> None:
+        """A file larger than allowed is not read."""
+        (tmp_path / "a").write_bytes(b"a" * 2049)
+        assert len(file_source(tmp_path / "a", 2049).text) == 2049
+        with pytest.raises(UnreadableFile, match="larger than 2 KiB"):
+            file_source(tmp_path / "a", 2048)
+
+    @pytest.mark.parametrize("name", ["none.yaml", "", "a\0b", "x" * 5000])
+    def test_no_file(self, tmp_path: Path, name: str) -> None:
+        """What is no file is said, whatever its name."""
+        with pytest.raises(UnreadableFile):
+            file_source(tmp_path / name)
 
 
 class TestRefused:
@@ -220,6 +203,11 @@ class TestRefused:
         problem = refusal(text)
         assert problem.place is not None
         assert "\n" not in problem.message
+
+    @pytest.mark.parametrize("text", ["\ta: 1", "a:\n\tb: 1", "a:\n  \tb: 1\n"])
+    def test_tab(self, text: str) -> None:
+        """A tab, which looks like spaces, is named."""
+        assert "tab" in refusal(text).message
 
     def test_empty(self) -> None:
         """An empty text is a tree of nothing."""

@@ -8,13 +8,14 @@ from typing import Annotated, Any, Literal
 
 import jsonschema
 import pytest
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from toys import toy_registry
 
-from graphface import DocumentError, Formerly, Registry, load, node
+from graphface import DocumentError, Formerly, Pack, Registry, load, node
 from graphface.cli import main
 from graphface.document.located import parse, plain
-from graphface.document.schema import graph_schema
+from graphface.document.schema import graph_schema, model_schema, schema_of
+from graphface.errors import UnknownName
 from graphface.place import Source
 from graphface.registry import default_registry
 
@@ -177,7 +178,104 @@ class TestRejects:
         assert problems(toys, text) == ["$.nodes.n.with.count"]
 
 
+class Square(BaseModel):
+    """A square.
+
+    With four sides.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+
+    kind: Literal["square"]
+    side: Annotated[float, Field(gt=0, description="In meters.")] = 1.0
+
+
+class Disc(BaseModel):
+    """Round."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    kind: Literal["disc"] = "disc"
+    inside: "Square | None" = None
+
+
+class Shapes(BaseModel):
+    shapes: list[Annotated[Square | Disc, Field(discriminator="kind")]] = []
+    margin: int | list[int] = 0
+
+
+class TestModel:
+    @pytest.fixture
+    def marks(self) -> Callable[[Any], list[str]]:
+        schema = model_schema(Shapes)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        return lambda content: [e.json_path for e in jsonschema.Draft202012Validator(schema).iter_errors(content)]
+
+    @pytest.mark.parametrize(
+        "content",
+        [
+            {},
+            {"shapes": [{"kind": "square", "side": 2}, {"kind": "disc", "inside": {"kind": "square"}}]},
+            {"margin": 1},
+            {"margin": [1]},
+        ],
+    )
+    def test_accepts(self, marks: Callable[[Any], list[str]], content: Any) -> None:
+        """What the model takes."""
+        Shapes.model_validate(content)
+        assert marks(content) == []
+
+    @pytest.mark.parametrize(
+        ("content", "place"),
+        [
+            ({"shapes": [{"kind": "square", "side": -2}]}, "$.shapes[0].side"),
+            ({"shapes": [{"kind": "sqare"}]}, "$.shapes[0].kind"),
+            ({"shapes": [{"side": 2}]}, "$.shapes[0]"),
+            ({"shapes": [{"kind": "disc", "side": 2}]}, "$.shapes[0]"),
+            ({"shapes": [3]}, "$.shapes[0]"),
+            ({"margin": "x"}, "$.margin"),
+        ],
+    )
+    def test_rejects(self, marks: Callable[[Any], list[str]], content: Any, place: str) -> None:
+        """What it refuses is marked where it is wrong, also inside a union."""
+        with pytest.raises(ValidationError):
+            Shapes.model_validate(content)
+        assert marks(content) == [place]
+
+    def test_documented(self) -> None:
+        """Members of a union are shown with the first line of what they are."""
+        kinds = model_schema(Shapes)["properties"]["shapes"]["items"]["properties"]["kind"]["anyOf"]
+        assert kinds == [{"const": "disc", "description": "Round."}, {"const": "square", "description": "A square."}]
+
+
+def made_schema() -> dict[str, Any]:
+    return {"type": "string"}
+
+
+class TestKinds:
+    def test_of_packs(self) -> None:
+        """A pack describes its files by a model, or by a function that makes the schema itself."""
+        kinds = {"shapes": f"{__name__}:Shapes", "word": f"{__name__}:made_schema"}
+        registry = Registry([Pack("p", {}, schemas=kinds)])
+        assert schema_of("shapes", registry) == model_schema(Shapes)
+        assert schema_of("word", registry) == {"type": "string"}
+        assert schema_of("graph", registry) == graph_schema(registry)
+        with pytest.raises(UnknownName, match="unknown kind of file 'shape'; did you mean 'shapes'"):
+            schema_of("shape", registry)
+
+
 class TestCommand:
+    def test_kind(self, capsys: pytest.CaptureFixture[str]) -> None:
+        """`--kind` asks for the schema of another kind of file."""
+        with pytest.raises(SystemExit) as left:
+            main(["schema", "--kind", "scene"])
+        assert left.value.code == 0
+        assert json.loads(capsys.readouterr().out)["title"] == "Scene"
+        with pytest.raises(SystemExit) as left:
+            main(["schema", "--kind", "scnee"])
+        assert left.value.code == 2
+        assert "'scene'" in capsys.readouterr().err
+
     def test_output(self, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         """`graphface schema` prints it, or writes it to a file; plug-ins are in it."""
         plugin = tmp_path / "mine.py"

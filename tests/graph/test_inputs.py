@@ -2,12 +2,14 @@
 
 import os
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 import pytest
+from pydantic import BaseModel, ConfigDict, Field
 from toys import toy_registry
 
-from graphface import Files, Graph, Pack, Registry, UnreadableFile, load
+from graphface import DocumentError, Files, Graph, Pack, Registry, UnreadableFile, load, read_yaml, validated
 from graphface.errors import InputError
 
 
@@ -162,3 +164,54 @@ class TestDefaults:
         )
         (tmp_path / "top.yaml").write_text("graphface: 1\nnodes: {s: {use: sub/g.yaml}}\noutputs: {y: s}\n")
         assert load(tmp_path / "top.yaml", registry=registry).run()["y"].text == "inner"
+
+
+class Recipe(BaseModel):
+    """A type that is a pydantic model."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    steps: list[Annotated[int, Field(ge=0)]] = []
+
+    @classmethod
+    def coerce(cls, value: object) -> "Recipe":
+        return validated(value, cls)
+
+
+def read_recipe(path: Path) -> Recipe:
+    os.environ["GRAPHFACE_TEST_READS"] = str(int(os.environ["GRAPHFACE_TEST_READS"]) + 1)
+    return read_yaml(path, Recipe)
+
+
+class TestModel:
+    @pytest.fixture
+    def recipes(self) -> Registry:
+        registry = Registry([*toy_registry()._packs, Pack("recipes", {}, types={"Recipe": f"{__name__}:Recipe"})])
+        registry.add_files(Recipe, Files(read_recipe))
+        return registry
+
+    def test_is_read_when_bound(self, recipes: Registry, tmp_path: Path) -> None:
+        """A file is read once, when it is given: its mistakes are found before anything runs."""
+        (tmp_path / "r.yaml").write_text("steps: [1, 2]\n")
+        bound = graph(recipes, "Recipe").bind({"x": str(tmp_path / "r.yaml")})["x"]
+        assert os.environ["GRAPHFACE_TEST_READS"] == "1"
+        assert bound.value == Recipe(steps=[1, 2])
+        assert os.environ["GRAPHFACE_TEST_READS"] == "1"
+        (tmp_path / "r.yaml").write_text("steps: [1, -2]\nstep: 3\n")
+        with pytest.raises(DocumentError) as caught:
+            graph(recipes, "Recipe").bind({"x": str(tmp_path / "r.yaml")})
+        assert len(caught.value.problems) == 2
+
+    def test_mapping(self, recipes: Registry) -> None:
+        """A mapping too, whose mistakes name the input."""
+        assert graph(recipes, "Recipe").bind({"x": {"steps": [1]}})["x"].value == Recipe(steps=[1])
+        with pytest.raises(InputError, match=r"'x': steps\[0\]: input should be greater"):
+            graph(recipes, "Recipe").bind({"x": {"steps": [-1]}})
+
+    def test_default(self, recipes: Registry, tmp_path: Path) -> None:
+        """A default written into the graph file has places there, and the digest of the same mapping given."""
+        held = graph(recipes, "{type: Recipe, default: {steps: [1]}}", tmp_path)
+        assert held.bind({})["x"].value == Recipe(steps=[1])
+        assert held.bind({})["x"].digest == held.bind({"x": {"steps": [1]}})["x"].digest
+        with pytest.raises(DocumentError, match=r"g\.yaml:2:46: steps\[0\]"):
+            graph(recipes, "{type: Recipe, default: {steps: [-1]}}", tmp_path).bind({})

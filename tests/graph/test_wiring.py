@@ -211,6 +211,23 @@ class TestParameters:
         graph = wired(self.RANGED % "must: 1e0, count: 2.0")
         assert next(s for s in graph.steps if s.name == "x").parameters == {"count": 2, "mode": "plain", "must": 1.0}
 
+    def test_inside_a_value(self, wired: Wired) -> None:
+        """Of a mapping or list, the wrong value in it is shown."""
+        problem = only(wired, "  x: {use: toy.options, with: {items: 3}}")
+        assert problem.message == "parameter 'items' of node 'x' (toy.options): input should be a list, got 3"
+        assert problem.place is not None
+        assert problem.place.column == 32
+        problem = only(wired, "  x: {use: toy.nested, with: {sizes: {a: [1, 2], b: [3, x]}}}")
+        assert problem.message == (
+            "parameter 'sizes'['b'][1] of node 'x' (toy.nested): input should be a whole number, got 'x'"
+        )
+        assert problem.place is not None
+        assert problem.place.column == 57
+
+    def test_choice(self, wired: Wired) -> None:
+        """A word that is none of the choices is told the nearest."""
+        assert only(wired, "  x: {use: toy.nested, with: {mode: sfot}}").nearest == ("soft",)
+
     def test_deep_value(self, wired: Wired) -> None:
         """A parameter may be a structure, to the depth that files may have."""
         graph = wired("  x: {use: toy.options, with: {anything: " + "[" * 58 + "1" + "]" * 58 + "}}")

@@ -1,11 +1,14 @@
-"""sRGB and linear light undo each other; grey is the mean of the channels."""
+"""Color: sRGB and linear light undo each other, spaces have ranges of about 1."""
+
+from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from graphface.nodes.color import channel_mean, decode_srgb, encode_srgb
+from graphface.nodes.color import channel_mean, decode_srgb, encode_srgb, in_space, in_three_channels, with_channels_of
 
 
 class TestEncoding:
@@ -50,3 +53,35 @@ class TestChannelMean:
         pixels = np.ones((2, 2, 3), np.float32)
         channel_mean(pixels)
         assert (pixels == 1).all()
+
+
+class TestInSpace:
+    @pytest.mark.parametrize("space", ["rgb", "lab", "ycrcb", "hsv"])
+    def test_ranges_are_about_one(self, space, rng):
+        """No channel dominates a distance."""
+        found = in_space(rng.random((20, 20, 3)).astype(np.float32), space)
+        assert found.dtype == np.float32
+        assert np.abs(found).max() <= 2.6
+        assert (np.ptp(found, axis=(0, 1)) > 0.4).all()
+
+    def test_hue_is_continuous_at_red(self):
+        """A little towards yellow and a little towards magenta are near each other."""
+        reds = np.float32([[[1, 0.02, 0], [1, 0, 0.02]]])
+        one, other = in_space(reds, "hsv")[0]
+        assert np.linalg.norm(one - other) < 0.1
+
+
+class TestChannels:
+    @pytest.mark.parametrize("dtype", [np.float32, np.float64])
+    def test_in_three_channels(self, dtype):
+        """The same map three times, in a new array, empty ones too."""
+        for shape in ((2, 3), (0, 3)):
+            values = np.random.default_rng(0).random(shape).astype(dtype)
+            np.testing.assert_array_equal(in_three_channels(values), np.stack([values] * 3, axis=2))
+
+    def test_with_channels_of(self):
+        """Only a map without channels beside one that has them is repeated."""
+        grey, color = np.ones((2, 2), np.float32), np.ones((2, 2, 3), np.float32)
+        assert with_channels_of(grey, color).shape == (2, 2, 3)
+        assert with_channels_of(grey, grey) is grey
+        assert with_channels_of(color, color) is color

@@ -51,7 +51,7 @@ class TestInParallel:
         assert sorted(taken) == list(range(count))
 
     def test_work_may_share_its_own_work(self):
-        """However deep: whoever calls works too, so nobody waits for a thread that waits for him."""
+        """To any depth: the calling thread works too, so no two threads wait for each other."""
         done = []
 
         def work(depth):

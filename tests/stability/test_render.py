@@ -17,7 +17,7 @@ from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.render.head import head
 from graphface.nodes.render.samples import samples
 from graphface.nodes.render.shade import shade
-from graphface.nodes.render.shadows import shadow_maps
+from graphface.nodes.render.shadow_maps import shadow_maps
 from graphface.nodes.render.spread import spread
 from graphface.nodes.render.surroundings import surroundings
 from graphface.nodes.scatter.screen_space import screen_space

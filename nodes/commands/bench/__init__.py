@@ -31,7 +31,9 @@ class _Benches(TyperGroup):
         return typer.main.get_command(single)
 
 
-app = typer.Typer(cls=_Benches, help="Measure accuracy on ground truth, and its CPU time.", no_args_is_help=True)
+app: typer.Typer = typer.Typer(
+    cls=_Benches, help="Measure accuracy on ground truth, and its CPU time.", no_args_is_help=True
+)
 
 
 @app.callback()

@@ -1,1 +1,1 @@
-"""Edits of a detail map once it is made: by frequency `bands`, of `wrinkles`, of `shine`."""
+"""Edits of a finished detail map: by frequency (`bands`), of dark lines (`wrinkles`), of bright patches (`shine`)."""

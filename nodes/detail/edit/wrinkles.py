@@ -1,4 +1,4 @@
-"""Smoothing and deepening wrinkles: the dark lines of the detail map."""
+"""Wrinkles: dark lines of the detail map."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.detail.edit.bands import decomposed, edited_map
+from graphface.nodes.detail.edit.frequencies import decomposed, edited_map
 from graphface.nodes.types import DetailMap, FloatArray, Landmarks, Mask
 
 
@@ -22,9 +22,12 @@ def wrinkles(
 ) -> DetailMap:
     """Scale what is darker than its surroundings at the size of lines and folds: 0 smooths, 2 doubles the depth.
 
-    Creases are dark because they hide from light, so only the dark half of each band is touched: taking the bright
-    half along would flatten highlights too (that is `detail.edit.shine`). Brows and lashes are dark lines as well;
-    keep them with `where`.
+    Creases are dark because they are occluded, so only the negative half of each band changes. The positive half has
+    highlights, which `detail.edit.shine` scales.
+
+    Args:
+        where: H x W in 0..1, the weight of the edit; brows and lashes are dark lines too, so leave them out.
+        strength: factor of the wrinkles.
     """
 
     def edit(values: FloatArray) -> FloatArray:

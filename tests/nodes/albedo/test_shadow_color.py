@@ -6,19 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shapes import eyes_apart
 
-from graphface.nodes.albedo.shadow_color import shadow_colour
-from graphface.nodes.types import Image, Landmarks
+from graphface.nodes.albedo.shadow_color import shadow_color
+from graphface.nodes.types import Image
 
 SIDE, INTEROCULAR = 96, 40.0
 SKIN, ORANGE = np.float32([1.3, 0.95, 0.75]), np.float32([2.0, 0.8, 0.2])
 EVERYWHERE = np.ones((SIDE, SIDE), np.float32)
-
-
-def landmarks(interocular=INTEROCULAR):
-    points = np.zeros((468, 3), np.float32)
-    points[263, 0] = interocular
-    return Landmarks(points, "facemesh468")
 
 
 def spotted(light=0.2, color=ORANGE):
@@ -29,7 +24,7 @@ def spotted(light=0.2, color=ORANGE):
 
 
 def tamed(albedo, shading, mask=EVERYWHERE, interocular=INTEROCULAR):
-    return shadow_colour(albedo, Image(albedo * shading[..., None]), mask, landmarks(interocular))
+    return shadow_color(albedo, Image(albedo * shading[..., None]), mask, eyes_apart(interocular))
 
 
 def saturation(color):

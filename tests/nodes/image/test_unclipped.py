@@ -6,21 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shapes import eyes_apart
 
 from graphface.nodes.blend.recombine import recombine
 from graphface.nodes.detail.split import split
 from graphface.nodes.image.unclipped import unclipped
 from graphface.nodes.intrinsic.intensity import intensity
-from graphface.nodes.types import Image, Landmarks
+from graphface.nodes.types import Image
 
 SIDE, INTEROCULAR = 96, 40.0
 SKIN = np.float32([1.0, 0.72, 0.55])
-
-
-def landmarks(interocular=INTEROCULAR):
-    points = np.zeros((468, 3), np.float32)
-    points[263, 0] = interocular
-    return Landmarks(points, "facemesh468")
 
 
 def shiny(peak=1.3):
@@ -36,9 +31,9 @@ def clipped(pixels):
 
 class TestUnclipped:
     def test_a_lost_channel_comes_back(self):
-        """Where red is clipped and green and blue are not, their ratios to the skin around tell it."""
+        """Red that is clipped follows from green and blue and the color of the skin around."""
         true = shiny()
-        found = unclipped(clipped(true), landmarks()).pixels
+        found = unclipped(clipped(true), eyes_apart(INTEROCULAR)).pixels
         lost = true[..., 0] > 1.02
         assert lost.any()
         np.testing.assert_allclose(found[lost], true[lost], rtol=0.03)
@@ -46,24 +41,24 @@ class TestUnclipped:
     def test_what_is_not_clipped_stays(self):
         """To the last bit."""
         photo = clipped(shiny(peak=0.9))
-        np.testing.assert_array_equal(unclipped(photo, landmarks()).pixels, photo.pixels)
+        np.testing.assert_array_equal(unclipped(photo, eyes_apart(INTEROCULAR)).pixels, photo.pixels)
 
     def test_full_white_stays(self):
-        """No channel tells anything."""
+        """Without an unclipped channel there is nothing to reconstruct from."""
         photo = Image(np.ones((20, 20, 3), np.float32))
-        np.testing.assert_array_equal(unclipped(photo, landmarks()).pixels, photo.pixels)
+        np.testing.assert_array_equal(unclipped(photo, eyes_apart(INTEROCULAR)).pixels, photo.pixels)
 
     def test_grey_stays_grey(self):
         """A black-and-white photo has no color to give back."""
         grey = np.repeat(np.minimum(shiny()[..., :1], 1), 3, axis=2)
-        found = unclipped(Image(grey), landmarks()).pixels
+        found = unclipped(Image(grey), eyes_apart(INTEROCULAR)).pixels
         np.testing.assert_allclose(found, grey, atol=1e-3)
 
     @given(st.integers(1, 24), st.integers(1, 24), st.floats(0, 1e4), st.integers(0, 2**32 - 1))
     def test_any_picture(self, height, width, interocular, seed):
-        """Never darker, never more than `most` times as bright, whatever the size."""
+        """Never darker, never more than `largest_gain` times as bright, whatever the size."""
         pixels = np.random.default_rng(seed).choice(np.float32([0, 0.5, 0.95, 1]), (height, width, 3))
-        found = unclipped(Image(pixels), landmarks(interocular), most=1.5).pixels
+        found = unclipped(Image(pixels), eyes_apart(interocular), largest_gain=1.5).pixels
         assert np.isfinite(found).all()
         assert (found >= pixels).all()
         assert (found <= 1.5 * pixels + 1e-6).all()
@@ -73,7 +68,7 @@ class TestRelit:
     """The detail map of a photo whose highlights were reconstructed."""
 
     PHOTO = clipped(shiny())
-    SOURCE = unclipped(PHOTO, landmarks())
+    SOURCE = unclipped(PHOTO, eyes_apart(INTEROCULAR))
     PARTS = intensity(SOURCE)
     LIGHT = np.full((SIDE, SIDE), 0.6, np.float32)
     DETAIL = split(PHOTO, PARTS.albedo, LIGHT, unclipped=SOURCE)

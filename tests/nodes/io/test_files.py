@@ -20,7 +20,7 @@ def test_found(name: str) -> None:
 
 def test_suffixes_of_pictures() -> None:
     """The suffixes that picture types promise are those that pictures are written as."""
-    from graphface.nodes.io.files import PICTURES
     from graphface.nodes.io.image_write import SUFFIXES
+    from graphface.nodes.io.suffixes import PICTURES
 
     assert set(SUFFIXES) == set(PICTURES)

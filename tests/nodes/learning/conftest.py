@@ -1,7 +1,6 @@
-"""Lets the tests of learning import `drawn`, and `faces` of the tests of morphable."""
+"""Lets the tests of learning import `drawn`."""
 
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "morphable"))
 sys.path.insert(0, str(Path(__file__).parent))

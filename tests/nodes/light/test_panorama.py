@@ -49,10 +49,10 @@ def relit(portrait):
 
     def run(panorama, light=None, **scene):
         lights = [{"type": "environment", **(light or {})}]
-        asked = {"lights": lights, "background": 1, "hair": 0, **scene}
+        wanted = {"lights": lights, "background": 1, "hair": 0, **scene}
         more = {} if panorama is None else {"environment": panorama}
         try:
-            return graph.run(evaluator=evaluator, photo=portrait, scene=asked, **more)
+            return graph.run(evaluator=evaluator, photo=portrait, scene=wanted, **more)
         except graphface.RunError as error:
             if isinstance(error, AssetUnavailable) or "network" in str(error):
                 pytest.skip(str(error))
@@ -87,7 +87,7 @@ class TestEnvironmentLight:
         assert np.abs(turned - relit(ahead)["image"].pixels).max() > 0.1
 
     def test_the_same_from_all_sides_is_ambient_light(self, portrait, relit, tmp_path):
-        """A grey panorama lights like a scene that has nothing but `ambient`."""
+        """A grey panorama lights like a scene with `ambient` alone."""
         even = relit(str(write_hdr(tmp_path / "even.hdr", sky())))["image"].pixels
         graph = graphface.load("relight")
         ambient = graph.run(photo=portrait, scene={"ambient": 1, "background": 1, "hair": 0})["image"].pixels
@@ -110,7 +110,7 @@ class TestEnvironmentLight:
             assert ("panorama" in ran) == expected
 
     def test_left_out(self, relit):
-        """A scene with an environment light and no panorama says which input is missing."""
+        """Without a panorama the error of an environment light names the missing input."""
         with pytest.raises(graphface.RunFailed, match="environment"):
             relit(None)
 

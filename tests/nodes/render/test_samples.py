@@ -1,18 +1,26 @@
-"""Samples: points of the surface on a grid, and maps of the grid that can be enlarged."""
+"""The points of a surface on a grid."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from graphface.nodes.color import decode_srgb
+from graphface.nodes.render.sample_grid import enlarged, on_grid
 from graphface.nodes.render.samples import samples
-from graphface.nodes.types import Camera, Image, Mesh, Surface
+from graphface.nodes.types import (
+    Camera,
+    Image,
+    Mesh,
+    Surface,
+)
 
 SIDE, UNIT = 120, 40.0
+
+
 PHOTO = Image(np.full((SIDE, SIDE, 3), 0.5, np.float32))
+
+
 MESH = Mesh(
     np.zeros((3, 3), np.float32),
     np.int32([[0, 1, 2]]),
@@ -30,14 +38,14 @@ def disc(radius=30.0, side=SIDE):
     return Surface(normals, coverage * 2, coverage, np.where(coverage > 0, 0, -1).astype(np.int32), normals)
 
 
-def taken(surface, detail=20.0, mesh=MESH, photo=PHOTO, estimated=None):
+def taken(surface, resolution=20.0, mesh=MESH, photo=PHOTO, estimated=None):
     estimated = 0.5 * surface.coverage if estimated is None else estimated
-    return samples(surface, estimated, surface.coverage, photo, mesh, detail=detail)
+    return samples(surface, estimated, surface.coverage, photo, mesh, resolution=resolution)
 
 
 class TestSamples:
     def test_as_many_as_asked_for(self):
-        """`detail` squared points for a square of one inter-ocular distance."""
+        """`resolution` squared points for a square of one inter-ocular distance."""
         surface = disc()
         count = surface.coverage.sum() / UNIT**2 * 20**2
         assert len(taken(surface).cells) == pytest.approx(count, rel=0.05)
@@ -45,17 +53,17 @@ class TestSamples:
     def test_never_finer_than_the_picture(self):
         """A small face has a point for each of its pixels."""
         surface = disc()
-        assert len(taken(surface, detail=4096).cells) == surface.coverage.sum()
+        assert len(taken(surface, resolution=4096).cells) == surface.coverage.sum()
 
     def test_points_are_where_the_camera_sees_them(self):
-        """In inter-ocular distances, y upwards, z as the surface says."""
-        points = taken(disc(), detail=UNIT).points
+        """In inter-ocular distances, y upwards, z from the surface."""
+        points = taken(disc(), resolution=UNIT).points
         np.testing.assert_allclose(points[:, :2].mean(axis=0), 0, atol=1e-5)
         np.testing.assert_allclose(points[:, 2], 2 / UNIT)
         assert points[0, 1] == pytest.approx(29.5 / UNIT)  # the first row is the topmost
 
     def test_without_a_mesh_every_pixel_is_one_and_lies_in_the_middle(self):
-        """Nothing says how large the face is, or where."""
+        """The size and the place of the face are not known."""
         found = taken(disc(), mesh=None)
         assert found.grid == found.picture
         assert not found.points.any()
@@ -73,24 +81,4 @@ class TestSamples:
         """No points; maps are empty."""
         found = taken(disc(radius=0))
         assert len(found.cells) == 0
-        assert not found.enlarged(found.on_grid(np.zeros(0, np.float32))).any()
-
-
-class TestMaps:
-    @given(detail=st.floats(4, 80), radius=st.floats(1, 90), channels=st.sampled_from([(), (3,)]))
-    def test_a_constant_stays_one_up_to_the_edge(self, detail, radius, channels):
-        """Enlarged to the picture, nothing of what lies beyond the surface mixes in over it."""
-        surface = disc(radius)
-        found = taken(surface, detail=detail)
-        if not len(found.cells):
-            return
-        large = found.enlarged(found.on_grid(np.full((len(found.cells), *channels), 0.7, np.float32)))
-        y, x = np.nonzero(surface.coverage)
-        near = np.hypot(x - (SIDE - 1) / 2, y - (SIDE - 1) / 2) < radius - UNIT / detail
-        np.testing.assert_allclose(large[y[near], x[near]], 0.7, atol=1e-5)
-
-    def test_what_is_put_on_the_grid_is_read_back(self):
-        """`at_points` undoes `on_grid`."""
-        found = taken(disc())
-        values = np.random.default_rng(0).random(len(found.cells), dtype=np.float32)
-        np.testing.assert_array_equal(found.at_points(found.on_grid(values)), values)
+        assert not enlarged(found, on_grid(found, np.zeros(0, np.float32))).any()

@@ -1,4 +1,4 @@
-"""Shading under a scene: modes, exposure, color, and lights that are hard to have."""
+"""Shading under a scene: modes, exposure and hard cases."""
 
 from __future__ import annotations
 
@@ -6,42 +6,31 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapes import half_ball, surface_with
 
 from graphface.nodes.color import decode_srgb
-from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.render.samples import samples
 from graphface.nodes.render.shade import shade
-from graphface.nodes.types import DirectionalLight, HarmonicLight, Image, Scene, Surface
+from graphface.nodes.types import (
+    DirectionalLight,
+    HarmonicLight,
+    Image,
+    Scene,
+)
 
-
-def half_ball(side=31):
-    y, x = np.mgrid[1 : -1 : side * 1j, -1 : 1 : side * 1j]
-    squared = x * x + y * y
-    normals = np.stack([x, y, np.sqrt(np.maximum(1 - squared, 0))], axis=2)
-    normals[squared >= 1] = 0
-    return normals.astype(np.float32)
-
-
-NORMALS = half_ball()
+NORMALS = half_ball(31)
 COVERED = NORMALS.any(axis=2)
 MASK = COVERED.astype(np.float32)
 OLD = (0.5 + 0.1 * NORMALS[..., 0]) * MASK
-FRONT = np.float32([[0, 0, 1]])
 
 
 def photo(encoding="srgb"):
     return Image(np.full((*MASK.shape, 3), 0.5, np.float32), encoding=encoding)
 
 
-def surface(normals=NORMALS):
-    covered = normals.any(axis=2)
-    triangle = np.where(covered, 0, -1).astype(np.int32)
-    return Surface(normals, 0 * MASK, covered.astype(np.float32), triangle, 0 * normals)
-
-
 def shaded(scene, encoding="srgb", old=OLD, mask=MASK, normals=NORMALS):
     old = old.astype(np.float32)
-    return shade(samples(surface(normals), old, mask, photo(encoding)), scene, old)
+    return shade(samples(surface_with(normals), old, mask, photo(encoding)), scene, old)
 
 
 class TestModes:
@@ -95,45 +84,7 @@ class TestExposure:
         assert 0 < dimmer < dim < 0.1
 
 
-class TestIrradiance:
-    def test_a_facing_surface_receives_the_intensity(self):
-        """A light of intensity 2 head-on gives 2, whatever its size."""
-        for size in (0, 15, 60):
-            scene = Scene(lights=(DirectionalLight(intensity=2, size=size),))
-            assert irradiance(scene, FRONT) == pytest.approx(2, rel=1e-5)
-
-    def test_a_point_light_is_lamberts_cosine(self):
-        """Without size: max(0, cos)."""
-        scene = Scene(lights=(DirectionalLight(azimuth=60, size=0),))
-        expected = np.maximum(NORMALS[COVERED] @ scene.lights[0].towards, 0)
-        np.testing.assert_allclose(irradiance(scene, NORMALS[COVERED]), expected, atol=1e-4)
-
-    def test_size_rounds_the_terminator(self):
-        """A large light reaches a little beyond grazing, continuously and monotone in the cosine."""
-        cosine = np.linspace(-1, 1, 2001, dtype=np.float32)
-        normals = np.stack([cosine, 0 * cosine, np.sqrt(1 - cosine**2)], axis=1)
-        received = irradiance(Scene(lights=(DirectionalLight(azimuth=90, size=30),)), normals)
-        assert received[1000] > 0
-        assert received[0] == 0
-        steps = np.diff(received)
-        assert steps.min() >= 0
-        assert steps.max() < 2e-3
-
-    def test_two_half_lights_are_one(self):
-        """Light adds up."""
-        half = DirectionalLight(azimuth=30, intensity=0.5)
-        whole = DirectionalLight(azimuth=30, intensity=1)
-        np.testing.assert_allclose(
-            irradiance(Scene(lights=(half, half)), NORMALS[COVERED]),
-            irradiance(Scene(lights=(whole,)), NORMALS[COVERED]),
-            rtol=1e-5,
-        )
-
-    def test_colored_light_shades_three_channels(self):
-        """Red light leaves green and blue dark."""
-        received = irradiance(Scene(lights=(DirectionalLight(color=(1, 0, 0)),)), FRONT)
-        np.testing.assert_allclose(received, [[1, 0, 0]], atol=1e-6)
-
+class TestLights:
     @settings(max_examples=60, deadline=None)
     @given(
         st.floats(-360, 360),

@@ -1,4 +1,4 @@
-"""Shading beyond the face: the same for old and new, without a seam, and mixed with distance."""
+"""Shading beyond the face: continued without a seam, by the same operation for every light."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapes import eyes_apart
 
 from graphface import GraphfaceWarning
-from graphface.nodes.render.background import background
 from graphface.nodes.render.spread import spread as spread_over
 from graphface.nodes.render.surroundings import surroundings
-from graphface.nodes.types import Landmarks, Scene, Surface
+from graphface.nodes.types import (
+    Surface,
+)
 
 SIDE, INTEROCULAR = 160, 40.0
 
@@ -26,13 +28,8 @@ def face(side=SIDE, radius=45, soft=10.0):
     return Surface(flat, coverage * 0, coverage, np.zeros((side, side), np.int32), flat), mask
 
 
-def landmarks(interocular=INTEROCULAR):
-    points = np.zeros((468, 3), np.float32)
-    points[263, 0] = interocular
-    return Landmarks(points, "facemesh468")
-
-
 SURFACE, MASK = face()
+LANDMARKS = eyes_apart(INTEROCULAR)
 
 
 def spread(shading, mask, surface, points):
@@ -48,49 +45,47 @@ class TestSpread:
     def test_keeps_the_face(self):
         """Where the mask is 1 the shading is untouched."""
         shading = gradient()
-        np.testing.assert_allclose(
-            spread(shading, MASK, SURFACE, landmarks())[MASK == 1], shading[MASK == 1], atol=1e-6
-        )
+        np.testing.assert_allclose(spread(shading, MASK, SURFACE, LANDMARKS)[MASK == 1], shading[MASK == 1], atol=1e-6)
 
     def test_continues_each_side(self):
         """Left of the face it is as on its left side, right of it as on its right."""
-        out = spread(gradient(), MASK, SURFACE, landmarks())
+        out = spread(gradient(), MASK, SURFACE, LANDMARKS)
         assert out[80, 0] > out[80, -1] + 0.2
 
     def test_stays_within_the_values_on_the_face(self):
         """Nothing beyond the face is brighter or darker than the face."""
-        out, inside = spread(gradient(), MASK, SURFACE, landmarks()), gradient()[SURFACE.coverage > 0]
+        out, inside = spread(gradient(), MASK, SURFACE, LANDMARKS), gradient()[SURFACE.coverage > 0]
         assert inside.min() - 1e-4 <= out.min()
         assert out.max() <= inside.max() + 1e-4
 
     def test_leaves_no_seam(self):
         """Across the mask's edge it is nowhere steeper than a few times the shading's own slope."""
-        out = spread(gradient(), MASK, SURFACE, landmarks())
+        out = spread(gradient(), MASK, SURFACE, LANDMARKS)
         assert np.abs(np.diff(out, axis=1)).max() < 3 * 0.8 / SIDE
 
     def test_is_linear(self, rng):
         """Spreading a sum is the sum of what is spread: an unchanged light stays unchanged everywhere."""
         one, two = (rng.random((SIDE, SIDE), dtype=np.float32) * SURFACE.coverage for _ in range(2))
-        both = spread(one + 2 * two, MASK, SURFACE, landmarks())
-        apart = [spread(s, MASK, SURFACE, landmarks()) for s in (one, two)]
+        both = spread(one + 2 * two, MASK, SURFACE, LANDMARKS)
+        apart = [spread(s, MASK, SURFACE, LANDMARKS) for s in (one, two)]
         np.testing.assert_allclose(both, apart[0] + 2 * apart[1], atol=1e-5)
 
     def test_colored_is_spread_channel_by_channel(self):
         """Three channels give what each gives alone."""
         colored = np.stack([gradient(), 0.5 * gradient(), 0 * gradient()], axis=2)
-        out = spread(colored, MASK, SURFACE, landmarks())
-        np.testing.assert_allclose(out[..., 1], spread(colored[..., 1], MASK, SURFACE, landmarks()), atol=1e-6)
+        out = spread(colored, MASK, SURFACE, LANDMARKS)
+        np.testing.assert_allclose(out[..., 1], spread(colored[..., 1], MASK, SURFACE, LANDMARKS), atol=1e-6)
 
     def test_empty_mask_warns(self):
-        """No face: no light changes anything, and it is said."""
+        """Without a face no light changes anything, with a warning."""
         with pytest.warns(GraphfaceWarning, match="mask is empty"):
-            assert not spread(gradient(), MASK * 0, SURFACE, landmarks()).any()
+            assert not spread(gradient(), MASK * 0, SURFACE, LANDMARKS).any()
 
     def test_full_mask_changes_nothing(self):
         """A face that fills the frame has nothing beyond it."""
         everywhere = Surface(SURFACE.normals, SURFACE.depth, MASK * 0 + 1, SURFACE.triangle, SURFACE.barycentric)
         shading = gradient() + 0.1
-        np.testing.assert_allclose(spread(shading, MASK * 0 + 1, everywhere, landmarks()), shading, atol=1e-6)
+        np.testing.assert_allclose(spread(shading, MASK * 0 + 1, everywhere, LANDMARKS), shading, atol=1e-6)
 
     @settings(max_examples=30, deadline=None)
     @given(st.integers(1, 30), st.integers(1, 30), st.floats(0, 1e4), st.floats(1e-6, 1))
@@ -101,31 +96,5 @@ class TestSpread:
         flat = np.zeros((height, width, 3), np.float32)
         surface = Surface(flat, coverage * 0, coverage, np.zeros((height, width), np.int32), flat)
         mask = coverage * np.float32(weight)
-        out = spread(coverage * np.float32(0.7), mask, surface, landmarks(interocular))
+        out = spread(coverage * np.float32(0.7), mask, surface, eyes_apart(interocular))
         np.testing.assert_allclose(out, 0.7, atol=1e-3)
-
-
-class TestBackground:
-    def test_face_is_relit_fully(self):
-        """On and beside the face the new shading stands."""
-        old, new = np.zeros_like(MASK), np.ones_like(MASK)
-        out = background(old, new, MASK, landmarks(), Scene(background=0.3))
-        np.testing.assert_allclose(out[SURFACE.coverage > 0], 1, atol=1e-6)
-
-    def test_far_away_is_the_scenes_share(self):
-        """Beyond `far` it is the constant mixture, and in between it falls."""
-        old, new = np.zeros_like(MASK), np.ones_like(MASK)
-        out = background(old, new, MASK, landmarks(), Scene(background=0.3), near=0.1, far=0.6)
-        assert out[80, 0] == pytest.approx(0.3, abs=0.01)
-        assert (np.diff(out[80, 80:]) <= 1e-6).all()
-
-    def test_share_one_hands_the_new_shading_on(self):
-        """Nothing to mix, nothing computed."""
-        new = np.ones_like(MASK)
-        assert background(MASK, new, MASK, landmarks(), Scene(background=1)) is new
-
-    def test_same_shading_stays_the_same(self):
-        """Mixing equal shadings changes nothing, in one channel or three."""
-        for shading in (gradient() + 0.2, np.repeat((gradient() + 0.2)[..., None], 3, axis=2)):
-            out = background(gradient() + 0.2, shading.copy(), MASK, landmarks(), Scene(background=0.3))
-            np.testing.assert_allclose(out, shading, atol=1e-6)

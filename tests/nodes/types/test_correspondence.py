@@ -1,31 +1,14 @@
-"""Pins set by hand, and the picture of a correspondence."""
+"""Correspondences and pins as values."""
+
+from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from graphface import UnreadableFile
-from graphface.nodes.io.pins import read_pins
 from graphface.nodes.types import Correspondence, Pins
 
 
 class TestPins:
-    def test_from_a_file(self, tmp_path):
-        """Four numbers a line; comments and empty lines do not count."""
-        (tmp_path / "p.txt").write_text("# eyes\n1 2 3 4\n\n5, 6, 7, 8  # left\n")
-        np.testing.assert_array_equal(read_pins(tmp_path / "p.txt").points, [[1, 2, 3, 4], [5, 6, 7, 8]])
-
-    @pytest.mark.parametrize("line", ["1 2 3", "1 2 3 x", "1 2 3 nan", "1 2 3 4 5"])
-    def test_a_wrong_line_is_named(self, tmp_path, line):
-        """The error says which line is wrong."""
-        (tmp_path / "p.txt").write_text(f"1 2 3 4\n{line}\n")
-        with pytest.raises(UnreadableFile, match="line 2"):
-            read_pins(tmp_path / "p.txt")
-
-    def test_an_empty_file_has_none(self, tmp_path):
-        """No line, no pin."""
-        (tmp_path / "p.txt").write_text("")
-        assert read_pins(tmp_path / "p.txt").points.shape == (0, 4)
-
     @pytest.mark.parametrize("value", [[1, 2, 3, 4], [[1, 2, 3]], [[1, 2, 3, np.inf]]])
     def test_another_shape(self, value):
         """Arrays are (n, 4) and finite."""
@@ -40,3 +23,12 @@ class TestPicture:
         drawn = Correspondence.picture(Correspondence(np.zeros((4, 4, 2), np.float32), nothing, nothing, (4, 4)))
         assert drawn.shape == (4, 4, 3)
         assert set(np.unique(drawn)) == {128}
+
+
+class TestKnown:
+    def test_is_the_better_of_both_places(self):
+        """Where the point or its mirror image is shown."""
+        places, valid, mirrored = np.zeros((1, 2, 2), np.float32), np.float32([[0.2, 1]]), np.float32([[0.7, 0]])
+        found = Correspondence(places, valid, valid, (1, 2), places, mirrored)
+        np.testing.assert_array_equal(found.known, np.float32([[0.7, 1]]))
+        assert Correspondence(places, valid, valid, (1, 2)).known is valid

@@ -1,8 +1,10 @@
-"""Values of the reference at the input's pixels."""
+"""The reference's photo, maps and detail map at the input's pixels."""
+
+from __future__ import annotations
 
 import numpy as np
 
-from graphface.nodes.types import Correspondence, DetailMap
+from graphface.nodes.types import Correspondence, DetailMap, Image
 from graphface.nodes.warp import resample
 from graphface.nodes.warp.mesh import mesh as correspond
 
@@ -13,26 +15,7 @@ def shifted(size: int, dx: float, dy: float) -> Correspondence:
     return Correspondence(np.dstack([x + np.float32(dx), y + np.float32(dy)]), ones, ones, (size, size))
 
 
-class TestFetched:
-    def test_whole_pixels_are_exact(self, rng):
-        """A shift by whole pixels copies values."""
-        values = rng.random((12, 12, 3), np.float32)
-        np.testing.assert_allclose(resample.fetched(values, shifted(12, 2, 1))[:10, :10], values[1:11, 2:12], atol=1e-6)
-
-    def test_a_linear_ramp_is_exact_between_pixels(self):
-        """Cubic interpolation reproduces a plane."""
-        ramp = np.tile(np.arange(16, dtype=np.float32), (16, 1))
-        got = resample.fetched(ramp, shifted(16, 0.5, 0))
-        np.testing.assert_allclose(got[4:12, 4:12], ramp[4:12, 4:12] + 0.5, atol=1e-2)
-
-    def test_a_larger_reference_is_averaged(self):
-        """A checkerboard of single pixels seen at a quarter of its size is grey, not noise."""
-        board = (np.indices((128, 128)).sum(axis=0) % 2).astype(np.float32)
-        y, x = np.mgrid[:32, :32].astype(np.float32)
-        ones = np.ones((32, 32), np.float32)
-        seen = resample.fetched(board, Correspondence(np.dstack([4 * x + 1, 4 * y]), ones, ones, (128, 128)))
-        np.testing.assert_allclose(seen[4:-4, 4:-4], 0.5, atol=0.05)
-
+class TestPhoto:
     def test_mirrored_values_stand_in(self, make_face):
         """What a turned reference hides comes from its other half: no value of the picture's edge is left."""
         _, _, mesh, surface = make_face()
@@ -44,17 +27,17 @@ class TestFetched:
         assert changed[found.mirrored_valid == 0].max() == 0
         assert changed[found.mirrored_valid > 0.5].mean() > 0.01
 
-    def test_where_the_point_is_hidden_nothing_of_it_is_left(self):
-        """However little the mirror image is worth: what lies in front of a hidden point is no part of the face."""
-        ramp = np.tile(np.arange(16, dtype=np.float32), (16, 1))
-        found = shifted(16, 0, 0)
-        hidden, little = np.zeros((16, 16), np.float32), np.full((16, 16), 0.1, np.float32)
-        mirrored = np.ascontiguousarray(found.places * (-1, 1) + (15, 0), np.float32)
-        got = resample.fetched(ramp, Correspondence(found.places, found.inside, hidden, (16, 16), mirrored, little))
-        np.testing.assert_allclose(got, ramp[:, ::-1], atol=1e-3)
+    def test_keeps_the_encoding(self, rng):
+        """Pixels are resampled as they are encoded; alpha is dropped."""
+        photo = Image(rng.random((8, 8, 3), np.float32), alpha=np.ones((8, 8), np.float32), encoding="linear")
+        moved = resample.photo(photo, shifted(8, 1, 0))
+        np.testing.assert_allclose(moved.pixels[:, :7], photo.pixels[:, 1:], atol=1e-6)
+        assert (moved.encoding, moved.alpha) == ("linear", None)
 
+
+class TestDetail:
     def test_every_part_of_a_detail_map(self, rng):
-        """Offset and gain are both fetched; a part that is not there stays away."""
+        """Offset and gain are both resampled; a part that is not there stays away."""
         offset, gain = (rng.random((8, 8, 3), np.float32) for _ in range(2))
         moved = resample.detail(DetailMap(offset, gain), shifted(8, 1, 0))
         np.testing.assert_allclose(moved.offset[:, :7], offset[:, 1:], atol=1e-6)
@@ -64,7 +47,7 @@ class TestFetched:
 
 class TestMask:
     def test_stays_a_mask(self):
-        """Cubic interpolation overshoots at an edge; a mask fetched by it does not leave 0..1."""
+        """Cubic interpolation overshoots at an edge; a mask resampled by it does not leave 0..1."""
         step = np.zeros((16, 16), np.float32)
         step[:, 8:] = 1
         got = resample.mask(step, shifted(16, 0.5, 0))
