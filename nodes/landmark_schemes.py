@@ -43,7 +43,11 @@ POINTS = {"facemesh468": 468, "ibug68": 68}
 
 
 def ibug68(landmarks: Landmarks) -> Landmarks:
-    """The same face in the 68-point scheme: points (68, 3); landmarks of that scheme are returned unchanged."""
+    """The same face in the 68-point scheme: points (68, 3); landmarks of that scheme are returned unchanged.
+
+    >>> ibug68(Landmarks(np.zeros((468, 3), np.float32), "facemesh468")).points.shape
+    (68, 3)
+    """
     if landmarks.scheme == "ibug68":
         return landmarks
     points = landmarks.points[IBUG68_IN_FACEMESH468]

@@ -142,7 +142,7 @@ def _gradient(points: Array, triangles: NDArray[np.int32]) -> Any:
 
 
 def _laplacian(triangles: NDArray[np.int32], vertices: int) -> Any:
-    """Sparse (V, V): mean of the neighbours minus the value."""
+    """Sparse (V, V): mean of the neighbors minus the value."""
     from scipy.sparse import csr_array, diags_array, eye_array
 
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])

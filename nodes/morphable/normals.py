@@ -13,6 +13,9 @@ def vertex_normals(vertices: NDArray[np.float64], triangles: NDArray[np.int32], 
 
     Angle weights make the normal independent of the triangulation of a flat patch (Thürmer and Wüthrich 1998). A vertex
     without a proper triangle has the normal (0, 0, 1).
+
+    >>> vertex_normals(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.int32([[0, 1, 2]]))[0].tolist()
+    [0.0, 0.0, 1.0]
     """
     corners = vertices[triangles]
     ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
