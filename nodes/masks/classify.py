@@ -77,22 +77,22 @@ def classify(
     layout = layout_of(landmarks, window)
     unit = max(landmarks.interocular * window.scale, 1e-3)
     pixels = window.downsampled(photo.pixels)
-    sure = window.downsampled(masks.conservative) > 0.5
+    conservative = window.downsampled(masks.conservative) > 0.5
     found_hair = window.downsampled(hair.response)
     aggressive = window.downsampled(masks.aggressive)
     segmentation = None if cue is None else (window.downsampled(cue.face), window.downsampled(cue.hair))
     if segmentation is None:
-        initial = initial_from_geometry(values, layout, sure, aggressive, found_hair, unit, prior)
+        initial = initial_from_geometry(values, layout, conservative, aggressive, found_hair, unit, prior)
     else:
-        initial = initial_from_segmentation(*segmentation, layout, sure, aggressive, found_hair, prior)
+        initial = initial_from_segmentation(*segmentation, layout, conservative, aggressive, found_hair, prior)
     probabilities, density = initial.probabilities, density_model(values, model, components)
     for _ in range(rounds):
         scores = initial.log_prior + likelihood * _log_likelihoods(
             density, probabilities, initial.skin, PSEUDO_COUNT * unit**2
         )
-        scores[sure] = np.where(np.arange(4) == FACE, 0, -60)
+        scores[conservative] = np.where(np.arange(4) == FACE, 0, -60)
         probabilities = smoothed(scores, pixels, method=smoothing)
-        probabilities[sure] = np.eye(4, dtype=np.float32)[FACE]
+        probabilities[conservative] = np.eye(4, dtype=np.float32)[FACE]
     probabilities = connected(probabilities, layout, unit, segmentation)
     shape = masks.normal.shape
     face_mask, hair_mask = (window.upsampled(probabilities[..., k], shape, outside=0) for k in (FACE, HAIR))

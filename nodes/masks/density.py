@@ -30,7 +30,7 @@ STEPS = 12
 
 TEMPERING = 0.6
 """Factor on a mixture's log-likelihoods: its eleven features are not independent, so the product of their likelihoods
-is too sure."""
+is overconfident."""
 
 
 NO_SAMPLES = -1.0

@@ -1,4 +1,4 @@
-"""How label weights are read from a file; what reads them is imported when a file is met."""
+"""Reading label weights from a file; the reader is imported when it is needed."""
 
 from __future__ import annotations
 

@@ -21,8 +21,8 @@ from graphface.nodes.masks.prior import BACKDROP, CLOTHES, HAIR, log_prior
 from graphface.nodes.types import FloatArray
 
 TEMPERATURE = 1.3
-"""Log-likelihood ratios are divided by this: the features of one pixel are not independent, so their product is too
-sure. With half as much again the hair of three portraits jumps."""
+"""Log-likelihood ratios are divided by this: the features of one pixel are not independent, so their product is
+overconfident. With half as much again the hair of three portraits jumps."""
 
 
 INSIDE_WEIGHT = 0.85

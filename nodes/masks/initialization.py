@@ -54,7 +54,7 @@ class InitialLabels:
 def initial_from_geometry(
     values: FloatArray,
     layout: Layout,
-    sure: NDArray[np.bool_],
+    conservative: NDArray[np.bool_],
     aggressive: FloatArray,
     hair: FloatArray,
     unit: float,
@@ -65,15 +65,15 @@ def initial_from_geometry(
     The conservative mask is face, the outside of the aggressive mask is background, and the detector finds hair.
 
     Args:
-        values: features h x w x D. sure: the conservative mask. hair: response of the hair detector.
+        values: features h x w x D. conservative: the conservative mask. hair: response of the hair detector.
         unit: inter-ocular distance in pixels. weight: of the prior's scores.
     """
-    exposed = exposed_skin(values, sure & ~layout.features, layout, unit)
-    skin = (sure & ~layout.features) | (exposed > 0.5)
+    exposed = exposed_skin(values, conservative & ~layout.features, layout, unit)
+    skin = (conservative & ~layout.features) | (exposed > 0.5)
     scores = weight * log_prior(layout)
     scores[..., FACE] += EXPOSED_SKIN_SCORE * exposed
     scores[..., HAIR] -= EXPOSED_SKIN_SCORE * exposed
-    probabilities = _seeds(sure, aggressive, hair, layout)
+    probabilities = _seeds(conservative, aggressive, hair, layout)
     scores[..., HAIR] -= NO_HAIR_SCORE * max(0.0, 1 - 2 * float(probabilities[..., HAIR].max()))
     return InitialLabels(scores, probabilities, skin_weights(values, skin))
 
@@ -82,7 +82,7 @@ def initial_from_segmentation(
     face: FloatArray,
     hair: FloatArray,
     layout: Layout,
-    sure: NDArray[np.bool_],
+    conservative: NDArray[np.bool_],
     aggressive: FloatArray,
     certain_hair: FloatArray,
     weight: float,
@@ -91,7 +91,7 @@ def initial_from_segmentation(
 
     Args:
         face, hair: probabilities in the prior segmentation, h x w.
-        sure: the conservative mask, which is face.
+        conservative: the conservative mask, which is face.
         aggressive: pixels outside this mask are no first samples of face.
         certain_hair: hair by the detector or by the user; it replaces the segmentation's hair in the first samples.
         weight: of the segmentation's log probabilities, beside `SEGMENTATION_WEIGHT`.
@@ -105,17 +105,17 @@ def initial_from_segmentation(
     probabilities[..., HAIR] = 0
     probabilities *= ((1 - certain_hair) / np.maximum(probabilities.sum(axis=2), 1e-6))[..., None]
     probabilities[..., HAIR] = certain_hair
-    probabilities[sure] = np.eye(4, dtype=np.float32)[FACE]
+    probabilities[conservative] = np.eye(4, dtype=np.float32)[FACE]
     return InitialLabels(scores, np.asarray(probabilities, np.float32), None)
 
 
-def _seeds(sure: NDArray[np.bool_], aggressive: FloatArray, hair: FloatArray, layout: Layout) -> FloatArray:
+def _seeds(conservative: NDArray[np.bool_], aggressive: FloatArray, hair: FloatArray, layout: Layout) -> FloatArray:
     """The paper's seeds as weights of samples, h x w x 4; all 0 where a pixel belongs to no seed."""
-    weights = np.zeros((*sure.shape, 4), np.float32)
+    weights = np.zeros((*conservative.shape, 4), np.float32)
     outside = (aggressive < 0.5) * (1 - hair)
     low = layout.up < CHIN - 0.35
     weights[..., BACKDROP] = outside * ~low
     weights[..., CLOTHES] = low * np.maximum(outside, 0.5 * (layout.up < CHIN - 0.9) * (np.abs(layout.right) < 0.8))
-    weights[..., HAIR] = hair * ((layout.head < 0) & (layout.up > EYE_LINE - 0.3) & ~sure)
-    weights[..., FACE] = sure
+    weights[..., HAIR] = hair * ((layout.head < 0) & (layout.up > EYE_LINE - 0.3) & ~conservative)
+    weights[..., FACE] = conservative
     return weights

@@ -1,6 +1,6 @@
 """Gaussian mixtures of weighted samples: one small classifier for each label of each picture.
 
-This is not scikit-learn's, for three reasons: samples carry weights (how sure we are that a pixel is hair); the
+This is not scikit-learn's, for three reasons: samples have weights (the probability that a pixel is hair); the
 initialization is not random (a photo with a little noise must give nearly the same classifier); importing scikit-learn
 takes longer than segmenting. Every covariance has a floor, so a flat color is a mixture too.
 """

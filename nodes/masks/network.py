@@ -63,8 +63,8 @@ def network(
     size = (window.width, window.height)
     small = np.asarray(cv2.resize(probabilities, size, interpolation=cv2.INTER_LINEAR), np.float32)
     hair, face = small[..., HAIR], small[..., SKIN].sum(axis=2)
-    sure = window.downsampled(masks.conservative)
-    face = face + sure * np.maximum(1 - hair - face, 0)
+    conservative = window.downsampled(masks.conservative)
+    face = face + conservative * np.maximum(1 - hair - face, 0)
     layout = layout_of(landmarks, window)
     face, hair = _of_this_head(face, hair, layout, landmarks.interocular * window.scale)
     if hair_seeds is not None:

@@ -75,11 +75,11 @@ def mirrored_input(cells: FloatArray) -> FloatArray:
 
 def _skin_color(lab: FloatArray, inside: FloatArray, layout: Layout) -> FloatArray:
     """Median Lab of the surely visible skin."""
-    sure = (layout.outline < -0.06) & ~layout.features & (layout.up < SKIN_TOP) & (inside > 0.5)
-    if not sure.any():
+    visible = (layout.outline < -0.06) & ~layout.features & (layout.up < SKIN_TOP) & (inside > 0.5)
+    if not visible.any():
         warn("masks.cue: no skin is visible; colors are compared with average skin")
         return np.asarray(AVERAGE_SKIN, np.float32)
-    return np.asarray(np.median(lab[sure], axis=0), np.float32)
+    return np.asarray(np.median(lab[visible], axis=0), np.float32)
 
 
 def _roughness(lightness: FloatArray) -> FloatArray:

@@ -55,6 +55,18 @@ class TestReadLandmarks:
         with pytest.raises(UnreadableFile, match=words):
             read_landmarks(tmp_path / "a.txt")
 
+    def test_binary_as_text(self, tmp_path):
+        """A picture in place of points is refused."""
+        (tmp_path / "a.csv").write_bytes(bytes(range(256)))
+        with pytest.raises(UnreadableFile):
+            read_landmarks(tmp_path / "a.csv")
+
+    def test_no_code_from_npy(self, tmp_path):
+        """Pickled objects in .npy are refused."""
+        np.save(tmp_path / "a.npy", np.array([{}], dtype=object), allow_pickle=True)
+        with pytest.raises(UnreadableFile):
+            read_landmarks(tmp_path / "a.npy")
+
 
 class TestWriteLandmarks:
     @pytest.mark.parametrize("name", ["a.txt", "a", "none/a.csv"])

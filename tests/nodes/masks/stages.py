@@ -61,3 +61,8 @@ def assert_partition(labels):
     assert np.isfinite(parts).all()
     assert parts.min() >= 0
     np.testing.assert_allclose(parts.sum(axis=0), 1, atol=1e-5)
+
+
+def parameters_of(graph, node):
+    """The parameters of a graph's node, by their present names."""
+    return next(step for step in graph.steps if step.name == node).parameters

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from portraits import HAIR, portrait
-from stages import assert_partition, certain, cued, detected, most_likely, overlap, overlaps
+from stages import assert_partition, certain, cued, detected, most_likely, overlap, overlaps, parameters_of
 
+from graphface import GraphfaceWarning, load
 from graphface.nodes.masks.classify import classify
 from graphface.nodes.masks.hair import hair
 from graphface.nodes.types import Segmentation
@@ -34,6 +35,12 @@ class TestFromGeometry:
         features, masks, _ = detected(photo, landmarks)
         seeds = hair(features, masks, landmarks, model="mixture")
         assert overlaps(classify(features, masks, seeds, landmarks, photo, model="mixture"), labels)[1] > 0.8
+
+    def test_former_names(self):
+        """Parameters keep their former names in graphs, with a warning."""
+        with pytest.warns(GraphfaceWarning, match="likelihood"):
+            graph = load("segment", set={"classes.evidence": 2.0})
+        assert parameters_of(graph, "classes")["likelihood"] == 2.0
 
     def test_partition(self):
         """Labels lie in [0, 1] and sum to 1."""

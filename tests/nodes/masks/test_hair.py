@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from portraits import BACKDROP, HAIR, SKIN, portrait
-from stages import detected, overlap
+from stages import detected, overlap, parameters_of
 
+from graphface import GraphfaceWarning, load
 from graphface.nodes.masks.hair import hair
 from graphface.testing import check_node
 
@@ -45,6 +46,12 @@ class TestHair:
         """Where the top looks just like the sides, hair is never certain."""
         photo, landmarks, _ = portrait(hair=BACKDROP)
         assert detected(photo, landmarks)[2].response.max() < 0.8
+
+    def test_former_names(self):
+        """Parameters keep their former names in graphs, with a warning."""
+        with pytest.warns(GraphfaceWarning, match="min_share"):
+            graph = load("segment", variants=["detector"], set={"detected.least": 0.2})
+        assert parameters_of(graph, "detected")["min_share"] == 0.2
 
     def test_node(self):
         """It keeps an operator's promises."""

@@ -6,8 +6,9 @@ import cv2
 import numpy as np
 import pytest
 from portraits import portrait
-from stages import masks_of, stacked
+from stages import masks_of, parameters_of, stacked
 
+from graphface import GraphfaceWarning, load
 from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.geometry.facemesh import facemesh as mesh_of
 from graphface.nodes.landmarks.facemesh import facemesh
@@ -101,6 +102,12 @@ class TestWithAStandIn:
         between[:] = 2
         found = network(painted(crowd), landmarks, masks_of(photo, landmarks))
         assert found.hair[:, -12:].max() < 0.1
+
+    def test_former_names(self):
+        """Parameters keep their former names in graphs, with a warning."""
+        with pytest.warns(GraphfaceWarning, match="inverse_temperature"):
+            graph = load("segment", variants=["network"], set={"classes.certainty": 3.0})
+        assert parameters_of(graph, "classes")["inverse_temperature"] == 3.0
 
     @pytest.mark.parametrize("value", [0.0, 1.0, np.nan, np.inf])
     @pytest.mark.parametrize("shape", [(1, 1), (3, 200), (200, 3), (64, 64)])

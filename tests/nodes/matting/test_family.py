@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from portraits import landmarks_at, portrait
 
+from graphface import GraphfaceWarning, load
 from graphface.nodes.matting.closed_form import closed_form
 from graphface.nodes.matting.guided import guided
 from graphface.nodes.matting.knn import knn
@@ -90,3 +91,12 @@ def test_follows_the_photo(matting):
     found = matting(Image(pixels), soft(labels), landmarks_at(30, 30, 60))
     assert (found.face[5:-5, 31] > 0.5).all()
     assert (found.face[5:-5, 28] < 0.5).all()
+
+
+@pytest.mark.parametrize("operator", ["matting.closed_form", "matting.knn"])
+@pytest.mark.parametrize(("old", "new"), [("trust", "label_weight"), ("strands", "hair_width")])
+def test_former_names(operator, old, new):
+    """Parameters keep their former names in graphs, with a warning."""
+    with pytest.warns(GraphfaceWarning, match=new):
+        graph = load("segment", replace={"matted": operator}, set={f"matted.{old}": 0.01})
+    assert next(step for step in graph.steps if step.name == "matted").parameters[new] == 0.01
