@@ -12,7 +12,7 @@ from graphface import UsageError
 from graphface.nodes.types import FaceCoordinates, FloatArray, Mesh, Surface
 
 
-def carried(of_vertex: FloatArray, surface: Surface, mesh: Mesh) -> FloatArray:
+def interpolated(of_vertex: FloatArray, surface: Surface, mesh: Mesh) -> FloatArray:
     """Vertex values (V, C), interpolated: float32 H x W x C, 0 off the mesh."""
     values = np.zeros((*surface.triangle.shape, of_vertex.shape[1]), np.float32)
     covered = surface.triangle >= 0
@@ -28,7 +28,7 @@ def face_coordinates(surface: Surface, mesh: Mesh) -> FaceCoordinates:
     Raises:
         UsageError: the mesh has no texture coordinates.
     """
-    found = carried(mesh_uv(mesh), surface, mesh)
+    found = interpolated(mesh_uv(mesh), surface, mesh)
     return np.where(surface.coverage[..., None] > 0, found, np.float32(-1))
 
 

@@ -36,7 +36,7 @@ def vertex_pixels(mesh: Mesh, shape: tuple[int, ...]) -> tuple[NDArray[np.intp],
     """
     height, width = shape
     pixels = mesh.camera.project(mesh.vertices.astype(np.float64))
-    inside = ((pixels >= -0.5) & (pixels <= np.array([width, height]) - 0.5)).all(axis=1)
+    inside = np.asarray(((pixels >= -0.5) & (pixels <= np.array([width, height]) - 0.5)).all(axis=1), np.bool_)
     column, row = (np.clip(np.rint(pixels[:, k]), 0, n - 1).astype(np.intp) for k, n in ((0, width), (1, height)))
     return row, column, inside
 

@@ -211,7 +211,7 @@ def _coercible(declared: PortType) -> bool:
 
 
 def _code_of(reader: Reader) -> bytes:
-    from graphface.cache.fingerprint import fingerprint
+    from graphface.fingerprint import fingerprint
 
     function = getattr(reader, "__func__", reader)
     return fingerprint(function).digest

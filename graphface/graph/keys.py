@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 
-from graphface.cache.fingerprint import Fingerprint, fingerprint
+from graphface.fingerprint import Fingerprint, fingerprint
 from graphface.graph.structure import Step, Structure
 from graphface.node import Operator
 from graphface.values.digest import canonical
@@ -38,16 +38,20 @@ class Code:
     def __init__(self) -> None:
         self._prints: dict[Operator, tuple[Fingerprint, bytes]] = {}
 
-    def digest(self, operator: Operator) -> bytes:
-        known = self._prints.get(operator)
-        if known is not None and not known[0].stale():
-            return known[1]
-        roots = (operator.function,) if operator.needs is None else (operator.function, operator.needs)
-        found = fingerprint(*roots)
+    def digests(self, operators: Sequence[Operator]) -> dict[Operator, bytes]:
+        """The digest of each; what several share is looked at once."""
+        known = {operator: self._prints[operator] for operator in operators if operator in self._prints}
+        watched = {watch for found, _ in known.values() for watch in found.watched}
+        changed = {watch for watch in watched if watch.changed()}
+        for operator in operators:
+            if operator not in known or (changed and not changed.isdisjoint(known[operator][0].watched)):
+                known[operator] = self._prints[operator] = self._take(operator)
+        return {operator: known[operator][1] for operator in operators}
+
+    def _take(self, operator: Operator) -> tuple[Fingerprint, bytes]:
+        found = fingerprint(operator.function, operator.needs)
         named = canonical((operator.name, operator.version, found.digest))
-        digest = blake2b(named, digest_size=KEY_BYTES).digest()
-        self._prints[operator] = (found, digest)
-        return digest
+        return found, blake2b(named, digest_size=KEY_BYTES).digest()
 
 
 CODE = Code()
@@ -99,7 +103,7 @@ class KeyRecipe:
             before: keys of the same graph for other inputs.
         """
         digests = tuple(digests)
-        code = {operator: CODE.digest(operator) for operator in self._operators}
+        code = CODE.digests(self._operators)
         if before is None or before.code != code:
             changed = bytearray(b"\1" * (self._first + len(self._rows)))
             by_slot = [*digests, *(b"" for _ in self._rows)]

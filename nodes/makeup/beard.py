@@ -93,9 +93,8 @@ def beard(
     if max(moustache, chin) == 0:
         return skin
     # Without hair on the chin only the upper lip counts: the smile folds beside it have contrast, too.
-    near_moustache = moustache * smooth(hull(MOUSTACHE), 2 * neighborhood)
-    near_beard = chin * smooth(hull(LOWER_FACE), 2 * neighborhood)
-    hair *= np.clip(2 * np.maximum(near_moustache, near_beard), 0, 1)
+    near = [c * smooth(hull(part), 2 * neighborhood) for c, part in ((moustache, MOUSTACHE), (chin, LOWER_FACE))]
+    hair *= np.clip(2 * np.maximum(*near), 0, 1)
     without = skin.copy()
     without[box] *= 1 - copy.up(hair)
     return without

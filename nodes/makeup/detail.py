@@ -47,14 +47,8 @@ def detail(
     """
     sigma = max(fine * landmarks.interocular, 0.5)
     openings = features.openings
-    parts = {}
-    for name in vars(reference):
-        of_input, of_reference = getattr(detail, name), getattr(reference, name)
-        if of_input is not None or of_reference is not None:
-            neutral = np.zeros if name == "offset" else np.ones
-            both = (v if v is not None else neutral((*keep.shape, 3), np.float32) for v in (of_input, of_reference))
-            parts[name] = _blended(*both, keep, openings, features.lips, sigma)
-    return replace(reference, **parts)
+    pairs = detail.paired_with(reference).items()
+    return replace(reference, **{name: _blended(*pair, keep, openings, features.lips, sigma) for name, pair in pairs})
 
 
 def _blended(

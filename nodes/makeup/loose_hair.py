@@ -53,7 +53,7 @@ def loose_hair(
         skin: of `makeup.skin`. photo, labels, features, landmarks: of the same picture.
         given: a user's mask, which is returned as it is.
         resolution: pixels per inter-ocular distance of the copy on which pixels are classified.
-        separation: Mahalanobis distance of the two mean colors below which hair and skin are not told apart.
+        separation: Mahalanobis distance of the two mean colors below which hair and skin are not distinguished.
         margin: width by which the hair that was found is dilated, in inter-ocular distances.
 
     Returns:

@@ -32,7 +32,7 @@ def checkerboard(
     at = face_coordinates(surface, mesh)
     square = np.floor(at * cells)
     odd = square.sum(axis=2) % 2
-    # Hue tells the squares apart, so that the eye can find the same one in both pictures.
+    # Each square has its own hue, so that the eye can find the same one in both pictures.
     colors = np.stack([square[..., 0] / cells, square[..., 1] / cells, 1 - square[..., 0] / cells], axis=2)
     drawn = np.clip(np.where(odd[..., None] > 0, colors, colors * 0.35), 0, 1)
     return laid_over(photo, np.rint(drawn * 255).astype(np.uint8), surface, strength)

@@ -91,7 +91,7 @@ def atlas(softness: float) -> dict[str, FloatArray]:
     drawn = {}
     for name in REGIONS:
         depth = _signed_distance(_filled(contours[name])) / SIDE * 2 * REACH + _GROWTH[name.rpartition("_")[2]]
-        drawn[name] = smoothstep(depth / softness + 0.5)
+        drawn[name] = smoothstep(np.asarray(depth / softness + 0.5, np.float32))
     total = np.maximum(sum(drawn.values()), 1)
     shared = {name: np.asarray(mask / total, np.float32) for name, mask in drawn.items()}
     for mask in shared.values():

@@ -1,1 +1,1 @@
-"""A photo unwrapped onto the model's texture (`unwrap`), and a texture put back onto a face (`project`)."""
+"""`unwrap` makes a texture of a photo's face, `project` draws a texture onto the face in a photo."""

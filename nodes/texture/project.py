@@ -1,4 +1,4 @@
-"""A texture put back onto a face in a photo."""
+"""A texture drawn onto the face in a photo."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from graphface.nodes.types import Image, Mesh, Surface, Texture
 
 @node("texture.project")
 def project(texture: Texture, photo: Image, mesh: Mesh, surface: Surface) -> Image:
-    """The photo with the texture on its face, as far as the texture was seen.
+    """The photo with the texture on its face, weighted by how well each texel was seen.
 
     Args:
         mesh, surface: the photo's, with the texture coordinates that the texture was unwrapped by.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -31,7 +31,7 @@ def detail(
     broadest: Scale | None = 0.2,
     finest: Annotated[float, Field(ge=0, le=2)] = 0.0,
 ) -> DetailMap:
-    """The input's detail map with a band of spatial frequencies exchanged for the reference's, as far as the mask says.
+    """The input's detail map with a band of spatial frequencies exchanged for the reference's, by a mask.
 
     Args:
         detail: the input's. reference: warped to the input, in the input's exposure (`makeup.exposed` with tone 0).
@@ -49,15 +49,9 @@ def detail(
         return detail
     unit = max(landmarks.interocular, 1e-3)
     lips = None if features is None else features.lips
-    parts = {}
-    for field in fields(reference):
-        of_input, of_reference = getattr(detail, field.name), getattr(reference, field.name)
-        if of_input is None and of_reference is None:
-            continue
-        neutral = np.zeros if field.name == "offset" else np.ones
-        both = (v if v is not None else neutral((*mask.shape, 3), np.float32) for v in (of_input, of_reference))
-        parts[field.name] = _exchanged(*both, mask, broadest and broadest * unit, finest * unit, lips)
-    return replace(detail, **parts)
+    limits = broadest and broadest * unit, finest * unit
+    pairs = detail.paired_with(reference).items()
+    return replace(detail, **{name: _exchanged(*pair, mask, *limits, lips) for name, pair in pairs})
 
 
 def _exchanged(

@@ -63,4 +63,5 @@ def paint(
 def _relative_chromaticity(pixels: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     """Color over intensity, divided by its median over the face: 1 for the color of the skin."""
     chromaticity = (pixels + _FLOOR) / in_three_channels(np.maximum(channel_mean(pixels), 0) + _FLOOR)
-    return chromaticity / np.maximum(np.median(chromaticity[inside], axis=0), _LEAST_CHROMATICITY)
+    of_skin = np.maximum(np.median(chromaticity[inside], axis=0), _LEAST_CHROMATICITY)
+    return np.asarray(chromaticity / of_skin, np.float32)

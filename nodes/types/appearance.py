@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +50,21 @@ class DetailMap:
     gain: Gain | None = None
     pivot: Albedo | None = None
     ceiling: FloatArray | None = None
+
+    def paired_with(self, other: DetailMap) -> dict[str, tuple[FloatArray, FloatArray]]:
+        """The parts that this map or another one of the same size has, by name; one that is missing is 0 or a factor 1.
+
+        >>> one, other = DetailMap(np.ones((1, 1, 3))), DetailMap(np.zeros((1, 1, 3)), gain=np.full((1, 1, 3), 2))
+        >>> {name: (float(a.mean()), float(b.mean())) for name, (a, b) in one.paired_with(other).items()}
+        {'offset': (1.0, 0.0), 'gain': (1.0, 2.0)}
+        """
+        pairs = {}
+        for name in (field.name for field in fields(self)):
+            own, others = getattr(self, name), getattr(other, name)
+            if own is not None or others is not None:
+                neutral = np.full(self.offset.shape, 0 if name == "offset" else 1, np.float32)
+                pairs[name] = (neutral if own is None else own, neutral if others is None else others)
+        return pairs
 
     @staticmethod
     def picture(detail: DetailMap) -> NDArray[np.uint8]:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphface.nodes.blur import blurred
+from graphface.nodes.blur import blurred, gaussian
 
 
 class TestBlurred:
@@ -28,3 +28,16 @@ class TestBlurred:
         out = blurred(np.full((height, width), value, np.float32), sigma)
         assert out.shape == (height, width)
         np.testing.assert_allclose(out, value, rtol=1e-4, atol=1e-6)
+
+
+class TestGaussian:
+    def test_adds_variances(self, rng):
+        """Two blurs in turn are one blur of the root of their summed variances."""
+        values = rng.random((60, 60), np.float32)
+        twice, once = gaussian(gaussian(values, 3.0), 4.0), gaussian(values, 5.0)
+        np.testing.assert_allclose(twice[15:-15, 15:-15], once[15:-15, 15:-15], atol=0.01)
+
+    def test_at_least_half_a_pixel(self, rng):
+        """A narrower Gaussian would be a single pixel, and 0 an error."""
+        values = rng.random((9, 9, 3), np.float32)
+        np.testing.assert_array_equal(gaussian(values, 0.0), gaussian(values, 0.5))

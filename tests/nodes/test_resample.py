@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphface.nodes.resample import resampled
-from graphface.nodes.types import (
-    Correspondence,
-)
+from graphface.nodes.types import Correspondence
 
 
 def shifted(size: int, dx: float, dy: float) -> Correspondence:

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from faces import coefficients_of, grid_model, landmarks_of, rotation_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "nodes" / "morphable"))  # importlib mode leaves `faces` unfindable
-
-from faces import coefficients_of, grid_model, landmarks_of, rotation_of
 
 from graphface import GraphfaceWarning
 from graphface.nodes.geometry.average import average

@@ -22,16 +22,24 @@ from graphface.cache.disk import DiskTier
 
 PACKAGE = {
     "__init__": "",
+    "begin": """\
+        from graphface import node
+
+        @node("stale.source")
+        def source(x: float) -> float:
+            return x + 1
+
+        @node("stale.late")
+        def late(a: float) -> float:
+            from {package}.lazily import imported
+            return imported(a)
+        """,
     "ops": """\
         import numpy as np
         from graphface import Lazy, node
         from {package} import middle
         from {package}.settings import GAIN
         from {package}.deep import Scaler
-
-        @node("stale.source")
-        def source(x: float) -> float:
-            return x + 1
 
         @node("stale.direct")
         def direct(a: float) -> float:
@@ -48,11 +56,6 @@ PACKAGE = {
         @node("stale.method")
         def method(a: float) -> float:
             return Scaler(2.0).scale(a)
-
-        @node("stale.late")
-        def late(a: float) -> float:
-            from {package}.lazily import imported
-            return imported(a)
 
         def _rule(a: float):
             return {{"extra": a > 0}}
@@ -107,7 +110,7 @@ EDITS: dict[str, tuple[str, str, str, dict[str, float]]] = {
     "a module imported inside the function": ("lazily", "a * 5", "a * 6", {"late": 12}),
     "the rule of lazy ports": ("ops", "a > 0", "a > 100", {"ruled": 2}),
     "an operator upstream": (
-        "ops",
+        "begin",
         "x + 1",
         "x + 2",
         {"direct": 6, "helped": 19, "constant": 12, "method": 6, "late": 15, "ruled": 9},
@@ -143,7 +146,7 @@ class Package:
 
     def registry(self) -> Registry:
         self.forget()
-        return Registry([Pack(self.name, operators={"stale": f"{self.name}.ops"})])
+        return Registry([Pack(self.name, operators={"stale": f"{self.name}.begin {self.name}.ops"})])
 
 
 @pytest.fixture
@@ -180,7 +183,7 @@ class TestCode:
 
     @pytest.mark.parametrize("edited", ["the body", "a helper", "a constant of another module", "a method"])
     def test_only_what_it_reaches(self, package: Package, evaluator: Evaluator, edited: str) -> None:
-        """An edit runs the operators that reach the edited code and what lies below, and no others."""
+        """An edit runs the operators whose modules import the edited one and what lies below, and no others."""
         module, before, after, changed = EDITS[edited]
         run(package, evaluator)
         package.edit(module, before, after)
@@ -380,7 +383,8 @@ class TestFiles:
 def _with_mask(registry: Registry) -> Registry:
     from toys import PACK
 
-    return Registry([PACK, Pack("masks", operators={}, types={"Mask": "graphface.nodes.types:Mask"})])
+    types, files = {"Mask": "graphface.nodes.types:Mask"}, {"Mask": "graphface.nodes.io.files:MASK"}
+    return Registry([PACK, Pack("masks", operators={}, types=types, files=files)])
 
 
 def _write_mask(path: Path, level: int) -> None:

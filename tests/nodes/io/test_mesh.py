@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 
-from graphface import UnwritableFile
+from graphface import UnwritableFile, UsageError
 from graphface.nodes.io.files import MESHES
 from graphface.nodes.io.mesh import write_mesh
 from graphface.nodes.types import Camera, Image, Mesh, Texture
@@ -48,3 +50,9 @@ class TestWriteMesh:
         """Is answered with the known ones."""
         with pytest.raises(UnwritableFile, match=r"\.obj"):
             write_mesh(MESH, tmp_path / "a.stl")
+
+    def test_a_missing_package_is_named(self, tmp_path, monkeypatch):
+        """Without trimesh the user is told what to install."""
+        monkeypatch.setitem(sys.modules, "trimesh", None)
+        with pytest.raises(UsageError, match=r"graphface\[models\]"):
+            write_mesh(MESH, tmp_path / "face.obj")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphface.nodes.types import Correspondence, DetailMap
+from graphface.nodes.types import Correspondence, DetailMap, Image
 from graphface.nodes.warp import resample
 from graphface.nodes.warp.mesh import mesh as correspond
 
@@ -26,6 +26,13 @@ class TestPhoto:
         changed = np.abs(resample.photo(photo, found).pixels - resample.photo(photo, alone).pixels).max(axis=2)
         assert changed[found.mirrored_valid == 0].max() == 0
         assert changed[found.mirrored_valid > 0.5].mean() > 0.01
+
+    def test_keeps_the_encoding(self, rng):
+        """Pixels are resampled as they are encoded; alpha is dropped."""
+        photo = Image(rng.random((8, 8, 3), np.float32), alpha=np.ones((8, 8), np.float32), encoding="linear")
+        moved = resample.photo(photo, shifted(8, 1, 0))
+        np.testing.assert_allclose(moved.pixels[:, :7], photo.pixels[:, 1:], atol=1e-6)
+        assert (moved.encoding, moved.alpha) == ("linear", None)
 
 
 class TestDetail:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from graphface.nodes.geometry.morphable import morphable
 from graphface.nodes.morphable.builtin import builtin_model
 from graphface.nodes.morphable.model import Basis, MorphableModel
 from graphface.nodes.morphable.pose import turned
-from graphface.nodes.types import Landmarks
+from graphface.nodes.surface.rasterize import rasterize
+from graphface.nodes.types import Image, Landmarks, Mesh, Surface
 
 
 def rotation_of(yaw=0.0, pitch=0.0, roll=0.0):
@@ -56,3 +58,17 @@ def grid_model(side=12, **changes):
         "landmarks": {"ibug68": np.linspace(0, len(mean) - 1, 68).astype(np.int32)},
     }
     return MorphableModel(**{**parts, **changes})
+
+
+def fitted(
+    yaw: float = 0.0, seed: int = 1, center: tuple[float, float] = (200.0, 150.0), near: float = 0.0
+) -> tuple[Image, Mesh, Surface]:
+    """A photo of 300 x 400 pixels, the fitted mesh and its surface, of a face about 150 pixels wide."""
+    y, x = np.mgrid[:300, :400].astype(np.float32)
+    pixels = np.stack([x / 400, y / 300, 0.5 + 0.4 * np.sin(x / 25) * np.sin(y / 25)], axis=2)
+    photo = Image(pixels.astype(np.float32))
+    face = landmarks_of(
+        coefficients=coefficients_of(seed, 0.5), rotation=rotation_of(yaw), scale=80, center=center, near=near
+    )
+    mesh = morphable(face, camera="assumed" if near else "weak")
+    return photo, mesh, rasterize(mesh, photo)
