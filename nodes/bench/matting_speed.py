@@ -66,10 +66,10 @@ def matting_speed(photos: Iterable[Path], *, label_weight: float, tolerance: flo
 def compared(path: Path, graph: Graph) -> Compared:
     """One photo, both ways; the graph mattes by matting.closed_form."""
     evaluator, classes = MeteredEvaluator(), unmatted()
+    graph.run([MATTED], evaluator=evaluator, photo=path)
+    evaluator.forget(evaluator.key(MATTED))  # run again: compiled code is loaded once
     made = graph.run(["working", "landmarks", classes, MATTED], evaluator=evaluator, photo=path)
-    before, matted = evaluator.key(classes), evaluator.key(MATTED)
-    evaluator.forget(matted)  # run again: compiled code is loaded once
-    found = graph.run([MATTED], evaluator=evaluator, photo=path)[MATTED]
+    before, matted, found = evaluator.key(classes), evaluator.key(MATTED), made[MATTED]
     (settings,) = (step.parameters for step in graph.steps if step.name == MATTED)
     photo, labels = made["working"], made[classes]
     band = band_of(labels, made["landmarks"].interocular, width=settings["width"], hair_width=settings["hair_width"])

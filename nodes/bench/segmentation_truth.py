@@ -72,9 +72,9 @@ def _segmented(
     truth = head.labels.argmax(axis=2)
     for matting, graph in graphs.items():
         graph.run([labels, MATTED], evaluator=evaluator, **inputs)
-        surface, before, matted = (evaluator.key(node) for node in ("surface", labels, MATTED))
-        evaluator.forget(matted)  # run again: what a method imports is not what is measured
+        evaluator.forget(evaluator.key(MATTED))  # run again: what a method imports is not what is measured
         found = likeliest(graph.run([MATTED], evaluator=evaluator, **inputs)[MATTED])
+        surface, before, matted = (evaluator.key(node) for node in ("surface", labels, MATTED))
         labels_ms, matting_ms = evaluator.cpu_ms(before, [surface]), evaluator.cpu_ms(matted, [before])
         evaluator.forget(matted)
         yield Segmented(
