@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import io
-
-import numpy as np
 import pytest
 
 from graphface import node
 from graphface.ablation import ablate
-from graphface.ablation.drawing import difference, where_they_differ
 from graphface.ablation.figures import measured, metrics_for
-from graphface.ablation.page import write_page
-from graphface.ablation.sheet import write_sheet
-from graphface.ablation.table import as_csv, as_markdown
 
 GRAPH = """
 graphface: 1
@@ -97,44 +89,3 @@ class TestAblate:
         measuring.add(picky)
         metrics = metrics_for(measuring.operator("toy.add").output, measuring)
         assert set(measured(metrics, 1.0, 2.0)) == {"apart"}
-
-
-class TestReports:
-    def test_table(self, registry):
-        """CSV has a line for each variant; Markdown the same and the sentence on sharing."""
-        done = ablate(GRAPH, ["last=add,subtract"], [{"x": 2.0}], loading={"registry": registry})
-        lines = list(csv.DictReader(io.StringIO(as_csv(done))))
-        assert [line["variant"] for line in lines] == ["toy.add", "toy.subtract"]
-        assert lines[1]["shared nodes"] == "2 of 3"
-        assert done.sharing in as_markdown(done)
-
-    def test_page_and_sheet_of_values_without_pictures(self, registry, tmp_path):
-        """Numbers have no picture; the page is written with its table, the sheet says so."""
-        done = ablate(GRAPH, ["last=add,subtract"], [{"x": 2.0}], loading={"registry": registry})
-        write_page(done, tmp_path / "index.html")
-        write_sheet(done, tmp_path / "sheet.png")
-        text = (tmp_path / "index.html").read_text(encoding="utf-8")
-        assert text.count("<tr data-v=") == 2
-        assert (tmp_path / "sheet.png").stat().st_size > 0
-
-
-class TestDrawing:
-    def test_no_difference_is_mid_grey(self):
-        """Equal pictures give 128 everywhere, and so do sizes that cannot be compared."""
-        one = np.full((4, 5, 3), 77, np.uint8)
-        assert (difference(one, one) == 128).all()
-        assert (difference(one, one[:2]) == 128).all()
-
-    def test_finds_where_pictures_differ(self):
-        """The window holds the one place where they do."""
-        one = np.zeros((100, 120, 3), np.uint8)
-        other = one.copy()
-        other[70:75, 20:25] = 200
-        left, top, width, height = where_they_differ([one, other]) or (0, 0, 0, 0)
-        assert (left <= 20, left + width >= 25) == (True, True)
-        assert (top <= 70, top + height >= 75) == (True, True)
-
-    def test_equal_pictures_have_no_such_place(self):
-        """None, rather than any window."""
-        one = np.zeros((10, 10, 3), np.uint8)
-        assert where_they_differ([one, one]) is None
