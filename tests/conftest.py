@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))  # importlib mode leaves `toys` unfindable otherwise
 
@@ -14,6 +15,9 @@ from evaluator_lab import THREADS, TIERS, Lab, build
 from toys import LOGGER, toy_registry
 
 from graphface import Registry
+
+settings.register_profile("any machine", deadline=None)  # how long an example takes says nothing on a busy machine
+settings.load_profile("any machine")
 
 
 @pytest.fixture(scope="session")

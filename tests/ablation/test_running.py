@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphface import node
 from graphface.ablation import ablate
-from graphface.ablation.figures import measured, metrics_for
 
 GRAPH = """
 graphface: 1
@@ -18,25 +16,6 @@ nodes:
   last: {use: toy.add, in: {a: middle, b: x}, with: {label: last}}
 outputs: {y: last}
 """
-
-
-@node("metrics.apart")
-def apart(result: float, truth: float) -> float:
-    """How far apart two numbers are; lower is better."""
-    return abs(result - truth)
-
-
-@node("metrics.needs_more")
-def needs_more(result: float, truth: float, third: float) -> float:
-    """Cannot be measured with two values."""
-    return 0.0
-
-
-@pytest.fixture
-def measuring(registry):
-    registry.add(apart)
-    registry.add(needs_more)
-    return registry
 
 
 class TestAblate:
@@ -68,24 +47,3 @@ class TestAblate:
         """Cases times variants."""
         done = ablate(GRAPH, ["start.plus=0,1,2"], [{"x": 1.0}, {"x": 5.0}], loading={"registry": registry})
         assert [cell.value for cell in done.of_case(1)] == [10.0, 11.0, 12.0]
-
-    def test_figures_against_the_truth(self, measuring):
-        """Each metric that fits is measured; one that needs a third value is not."""
-        declared = measuring.operator("toy.add").output
-        metrics = metrics_for(declared, measuring)
-        assert [m.name for m in metrics] == ["apart"]
-        done = ablate(
-            GRAPH, ["last=add,subtract"], [{"x": 2.0}], truths=[4.0], metrics=metrics, loading={"registry": measuring}
-        )
-        assert [cell.figures["apart"] for cell in done.cells] == [1.0, 3.0]
-
-    def test_a_metric_that_refuses_is_left_out(self, measuring):
-        """A figure that cannot be had is absent, not zero."""
-
-        @node("metrics.picky")
-        def picky(result: float, truth: float) -> float:
-            raise ValueError("never")
-
-        measuring.add(picky)
-        metrics = metrics_for(measuring.operator("toy.add").output, measuring)
-        assert set(measured(metrics, 1.0, 2.0)) == {"apart"}
