@@ -1,6 +1,6 @@
-"""Per-pixel face coordinates.
+"""Face coordinates of pixels.
 
-Face coordinates are the model's texture coordinates: the same numbers are the same point on any face, in any pose and
+Face coordinates are the model's texture coordinates. Equal coordinates are the same point on any face, in any pose and
 expression, so two pictures correspond where their coordinates agree (paper, "Face geometry").
 """
 
@@ -13,7 +13,7 @@ from graphface.nodes.types import FaceCoordinates, FloatArray, Mesh, Surface
 
 
 def interpolated(of_vertex: FloatArray, surface: Surface, mesh: Mesh) -> FloatArray:
-    """Vertex values (V, C), interpolated: float32 H x W x C, 0 off the mesh."""
+    """Vertex values (V, C), interpolated at every pixel: float32 H x W x C, 0 off the mesh."""
     values = np.zeros((*surface.triangle.shape, of_vertex.shape[1]), np.float32)
     covered = surface.triangle >= 0
     corners = mesh.triangles[surface.triangle[covered]]

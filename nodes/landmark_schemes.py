@@ -1,4 +1,4 @@
-"""Names of points, and how the 68 iBUG points are read from FaceMesh's 468.
+"""Schemes of landmarks: their sizes, and the 68 iBUG points among FaceMesh's 468.
 
 The numbers are FaceMesh's own vertex indices (MediaPipe's published face mesh topology: contours of lips, eyes, brows
 and face oval), put into the order of the iBUG / Multi-PIE mark-up: jaw 0-16 from the picture's left, brows 17-26, nose
@@ -14,7 +14,7 @@ from graphface.nodes.types import Landmarks
 
 
 class UnusableLandmarks(UsageError):
-    """Points that cannot be points on the face of this photo."""
+    """Landmarks that cannot lie on the face of this photo."""
 
 
 JAW = (127, 234, 93, 132, 172, 136, 150, 176, 152, 400, 379, 365, 397, 361, 323, 454, 356)
@@ -39,11 +39,11 @@ IBUG68_IN_FACEMESH468 = np.array(JAW + BROWS + NOSE + EYES + OUTER_LIPS + INNER_
 
 
 POINTS = {"facemesh468": 468, "ibug68": 68}
-"""Points in each scheme."""
+"""Number of points of each scheme."""
 
 
 def ibug68(landmarks: Landmarks) -> Landmarks:
-    """The same face in the 68-point scheme; (68, 3)."""
+    """The same face in the 68-point scheme: points (68, 3); landmarks of that scheme are returned unchanged."""
     if landmarks.scheme == "ibug68":
         return landmarks
     points = landmarks.points[IBUG68_IN_FACEMESH468]

@@ -1,8 +1,8 @@
-"""Draw a mesh into the picture's pixels: which triangle each pixel sees, and where in it.
+"""A mesh drawn into the picture's pixels: the visible triangle of each pixel, and the position in it.
 
-`cv2.triangleRasterize` decides visibility in C++; flat colors carry the triangle's number out of it. Everything else
-is then computed exactly from that number: barycentric coordinates are affine in the pixel's position, so there is one
-small matrix per triangle and no interpolation error from the rasterizer's own arithmetic.
+`cv2.triangleRasterize` computes visibility in C++ and returns the triangle's number as a flat color. Everything else is
+computed exactly from that number: barycentric coordinates are affine in the pixel's position, so there is one small
+matrix per triangle and no interpolation error of the rasterizer.
 """
 
 from __future__ import annotations
@@ -15,94 +15,106 @@ from numpy.typing import NDArray
 
 from graphface import warn
 from graphface.nodes.blur import blurred
+from graphface.nodes.bounding_box import Box
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Mesh, Surface
 
 _VIEW_ANGLE = 0.1
-"""Field of view handed to OpenCV, radians; vertices are moved beforehand so that any value gives the same picture."""
+"""Field of view for OpenCV, radians; vertices are moved beforehand so that any value gives the same picture."""
 
 
 _OFF_GRID = (1.3e-4, 0.7e-4)
-"""Shift of the drawn triangles, pixels: an edge running exactly through pixel centres would belong to neither side."""
+"""Shift of the drawn triangles, pixels: an edge exactly through pixel centers would belong to neither side."""
 
 
 def rasterized(mesh: Mesh, size: tuple[int, int], *, smoothing: float = 0.03, area_floor: float = 1e-9) -> Surface:
     """A mesh drawn into a picture of `size` (height, width); see `surface.rasterize` for the rest."""
-    height, width = size
-    surface = _nothing_seen(height, width)
+    surface = _empty_surface(*size)
     pixels = np.asarray(mesh.camera.project(mesh.vertices.astype(np.float64)), np.float64)
     corners = pixels[mesh.triangles]  # T x 3 x 2
     area = _signed_area(corners)
     usable = np.isfinite(corners).all(axis=(1, 2)) & (np.abs(area) > area_floor)
-    box = _bounding_box(corners[usable & (area > 0)], height, width)
+    box = _bounding_box(corners[usable & (area > 0)], *size)
     if box is None:
         warn("the mesh covers no pixel of the photo: normals, depth and coverage are empty")
         return surface
-    x0, y0, x1, y1 = box
-
     drawn = np.flatnonzero(usable)
+    corners = corners[drawn] - (box[1].start, box[0].start)
     z = mesh.vertices[mesh.triangles[drawn], 2]
-    window = (y1 - y0, x1 - x0)
-    seen = _visible_triangles(corners[drawn] - (x0, y0), z, window)
-    holes = _enclosed(seen < 0)
-    if holes.any():
-        seen[holes] = _visible_triangles(corners[drawn] - (x0, y0), z, window, from_behind=True)[holes]
-    if not (seen >= 0).any():
+    visible = _visible_triangles(corners, z, (box[0].stop - box[0].start, box[1].stop - box[1].start))
+    if not (visible >= 0).any():
         warn("the mesh falls between the pixels: normals, depth and coverage are empty")
         return surface
     tables = _Tables(
-        planes=_weight_planes(corners[drawn] - (x0, y0), area[drawn]),
-        nearness=np.maximum(1 - z.T * mesh.camera.nearness, 1e-3) if mesh.camera.nearness != 0 else None,
+        planes=_weight_planes(corners, area[drawn]),
+        distance=np.maximum(1 - z.T * mesh.camera.nearness, 1e-3) if mesh.camera.nearness != 0 else None,
         normals=np.ascontiguousarray(mesh.normals[mesh.triangles[drawn]].transpose(1, 2, 0), np.float32),
         z=np.ascontiguousarray(z.T, np.float32),
     )
-    normals = np.zeros((*window, 3), np.float32)
-
-    def look(rows: slice) -> None:
-        """All maps at some rows of the window."""
-        row, x = np.nonzero(seen[rows] >= 0)
-        y = row + rows.start
-        triangle = seen.reshape(-1).take(y * window[1] + x)
-        weights = _barycentric(tables, triangle, x, y)
-        normal = [_mixed(weights, tables.normals[:, axis], triangle) for axis in range(3)]
-        normals.reshape(-1, 3)[y * window[1] + x] = np.stack(normal, axis=1)
-        place = (y + y0) * width + (x + x0)
-        surface.depth.reshape(-1)[place] = _mixed(weights, tables.z, triangle)
-        surface.coverage.reshape(-1)[place] = 1
-        surface.triangle.reshape(-1)[place] = drawn.take(triangle)
-        surface.barycentric.reshape(-1, 3)[place] = np.stack(weights, axis=1)
-
-    by_strips(look, (*window, 8))
-    smooth = normals
+    normals = _interpolate(surface, visible, tables, drawn, box)
     if smoothing * mesh.interocular > 0.3:  # a narrower Gaussian is a single pixel
-        # Dividing by the blurred coverage is left to the normalization: it does not turn a vector.
-        smooth = blurred(normals, smoothing * mesh.interocular)
-
-    def normalize(rows: slice) -> None:
-        part = smooth[rows]
-        length = np.sqrt(_sum_of_channels(np.square(part)))
-        inside = seen[rows] >= 0
-        np.multiply(part, inside[..., None] / np.maximum(length, 1e-6), out=surface.normals[y0:y1, x0:x1][rows])
-
-    by_strips(normalize, normals.shape)
+        # Dividing by the blurred coverage is left to the normalization, since it does not rotate a vector.
+        normals = blurred(normals, smoothing * mesh.interocular)
+    _normalize(normals, visible >= 0, surface.normals[box])
     return surface
 
 
 @dataclass(frozen=True)
 class _Tables:
-    """What is known of T triangles, one row for each number, since short rows are slow to look up.
+    """Numbers of T triangles, the triangle last, since looking up short rows is slow.
 
-    `planes` (2, 3, T): what the second and the third corner's weights are over the window's x, y and 1. Of each corner
-    the `normals` (3, 3, T), the `z` (3, T) and the distance to the camera, `nearness` (3, T); None: all are equal.
+    `planes` (2, 3, T): coefficients of the second and the third corner's weights over the window's x, y and 1. At each
+    corner the `normals` (3, 3, T), the `z` (3, T) and the `distance` to the camera (3, T), relative to that of the
+    origin; None: all are 1.
     """
 
     planes: NDArray[np.float64]
-    nearness: NDArray[np.floating[Any]] | None
+    distance: NDArray[np.floating[Any]] | None
     normals: NDArray[np.float32]
     z: NDArray[np.float32]
 
 
-def _nothing_seen(height: int, width: int) -> Surface:
+def _interpolate(
+    surface: Surface, visible: NDArray[np.int32], tables: _Tables, drawn: NDArray[np.intp], box: Box
+) -> NDArray[np.float32]:
+    """Write every map of the surface but the normals, and return those, interpolated and not yet of length 1.
+
+    Args:
+        visible: of a window, numbers into `drawn`, which has the mesh's numbers of the triangles that were drawn.
+        box: the window in the surface.
+    """
+    height, width = visible.shape
+    normals = np.zeros((height, width, 3), np.float32)
+
+    def interpolate(rows: slice) -> None:
+        row, x = np.nonzero(visible[rows] >= 0)
+        y = row + rows.start
+        triangle = visible.reshape(-1).take(y * width + x)
+        weights = _barycentric(tables, triangle, x, y)
+        normal = [_mixed(weights, tables.normals[:, axis], triangle) for axis in range(3)]
+        normals.reshape(-1, 3)[y * width + x] = np.stack(normal, axis=1)
+        pixel = (y + box[0].start) * surface.depth.shape[1] + (x + box[1].start)
+        surface.depth.reshape(-1)[pixel] = _mixed(weights, tables.z, triangle)
+        surface.coverage.reshape(-1)[pixel] = 1
+        surface.triangle.reshape(-1)[pixel] = drawn.take(triangle)
+        surface.barycentric.reshape(-1, 3)[pixel] = np.stack(weights, axis=1)
+
+    by_strips(interpolate, (height, width, 8))
+    return normals
+
+
+def _normalize(normals: NDArray[np.float32], inside: NDArray[np.bool_], out: NDArray[np.float32]) -> None:
+    """Write unit normals inside and 0 outside."""
+
+    def normalize(rows: slice) -> None:
+        part = normals[rows]
+        length = np.sqrt(_sum_of_channels(np.square(part)))
+        np.multiply(part, inside[rows, :, None] / np.maximum(length, 1e-6), out=out[rows])
+
+    by_strips(normalize, normals.shape)
+
+
+def _empty_surface(height: int, width: int) -> Surface:
     return Surface(
         normals=np.zeros((height, width, 3), np.float32),
         depth=np.zeros((height, width), np.float32),
@@ -119,18 +131,32 @@ def _signed_area(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return twice
 
 
-def _bounding_box(corners: NDArray[np.float64], height: int, width: int) -> tuple[int, int, int, int] | None:
-    """The pixels x0 <= x < x1, y0 <= y < y1 that the triangles may touch, or None where there are none."""
+def _bounding_box(corners: NDArray[np.float64], height: int, width: int) -> Box | None:
+    """The pixels that the triangles may touch, or None where there are none."""
     if corners.size == 0:
         return None
     frame = np.array([width, height])
     low = np.clip(np.floor(corners.min(axis=(0, 1))), 0, frame).astype(int)
     high = np.clip(np.ceil(corners.max(axis=(0, 1))) + 1, 0, frame).astype(int)
-    return None if (high <= low).any() else (int(low[0]), int(low[1]), int(high[0]), int(high[1]))
+    return None if (high <= low).any() else (slice(int(low[1]), int(high[1])), slice(int(low[0]), int(high[0])))
+
+
+def _visible_triangles(
+    corners: NDArray[np.float64], z: NDArray[np.floating[Any]], size: tuple[int, int]
+) -> NDArray[np.int32]:
+    """Number of the nearest triangle at each pixel of a window (height, width), -1 where there is none.
+
+    Triangles that face away from the camera are drawn only where the others leave a hole.
+    """
+    visible = _nearest_triangles(corners, z, size)
+    holes = _enclosed(visible < 0)
+    if holes.any():
+        visible[holes] = _nearest_triangles(corners, z, size, from_behind=True)[holes]
+    return visible
 
 
 def _enclosed(uncovered: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The uncovered pixels from which no way leads out of the window."""
+    """The uncovered pixels that are not connected to the edge of the window."""
     import cv2
 
     padded = np.pad(uncovered, 1, constant_values=True)
@@ -139,14 +165,14 @@ def _enclosed(uncovered: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return enclosed[1:-1, 1:-1]
 
 
-def _visible_triangles(
+def _nearest_triangles(
     corners: NDArray[np.float64], z: NDArray[np.floating[Any]], size: tuple[int, int], from_behind: bool = False
 ) -> NDArray[np.int32]:
-    """Number of the nearest triangle at each pixel of a window (height, width), -1 where there is none.
+    """`_visible_triangles`, of the triangles that face the camera or (`from_behind`) of all.
 
-    OpenCV only knows a perspective camera at the origin looking along -z, with the window's corners at +-0.5 pixel
-    beyond the outermost centres. Putting each vertex at its own distance d - z and scaling its x and y by that
-    distance over d lands it on the wanted pixel exactly.
+    OpenCV supports only a perspective camera at the origin that looks along -z, whose frame ends half a pixel beyond
+    the outermost centers. A vertex is put at its own distance d - z, with x and y scaled by that distance over d. So it
+    is projected onto its pixel exactly.
     """
     import cv2
 
@@ -180,7 +206,7 @@ def _visible_triangles(
 def _weight_planes(corners: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:
     """Weight of the second and the third corner = plane . (x, y, 1), per triangle: (2, 3, T)."""
     first, b, c = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    scale = 1 / area[:, None]  # triangles without area were left out before
+    scale = 1 / area[:, None]  # triangles without area are not drawn
     slopes = np.stack([np.stack([c[:, 1], -c[:, 0]], 1), np.stack([-b[:, 1], b[:, 0]], 1)], axis=1) * -scale[..., None]
     offsets = -np.einsum("tkx,tx->tk", slopes, first)  # float64: differences of large numbers
     return np.ascontiguousarray(np.concatenate([slopes, offsets[..., None]], axis=2).transpose(1, 2, 0))
@@ -189,16 +215,17 @@ def _weight_planes(corners: NDArray[np.float64], area: NDArray[np.float64]) -> N
 def _barycentric(
     tables: _Tables, triangle: NDArray[np.int32], x: NDArray[np.intp], y: NDArray[np.intp]
 ) -> list[NDArray[np.float32]]:
-    """Barycentric coordinates, three of (n,), of pixel centres in the triangles they see."""
+    """Barycentric coordinates, three of (n,), of pixel centers in their visible triangles."""
     weights = [np.zeros(0, np.float32)]
     for slope_x, slope_y, offset in tables.planes:
         weight = slope_x.take(triangle) * x + slope_y.take(triangle) * y + offset.take(triangle)
         weights.append(np.clip(weight, 0, 1).astype(np.float32))
     weights[0] = np.clip(1 - weights[1] - weights[2], 0, 1)
-    if tables.nearness is not None:
-        # Equal steps in the picture are unequal steps on a tilted triangle: weigh each corner by one over its distance.
+    if tables.distance is not None:
+        # In perspective, weights are affine in the picture only after division by each corner's distance.
         weights = [
-            (w / near.take(triangle)).astype(np.float32) for w, near in zip(weights, tables.nearness, strict=True)
+            (w / distance.take(triangle)).astype(np.float32)
+            for w, distance in zip(weights, tables.distance, strict=True)
         ]
     total = np.maximum(weights[0] + weights[1] + weights[2], 1e-12)
     return [weight / total for weight in weights]
@@ -207,7 +234,7 @@ def _barycentric(
 def _mixed(
     weights: list[NDArray[np.float32]], of_corner: NDArray[np.float32], triangle: NDArray[np.int32]
 ) -> NDArray[np.float32]:
-    """A number of each corner (3, T), interpolated at n points."""
+    """Values at the corners (3, T), interpolated at n points."""
     return sum(
         (weight * values.take(triangle) for weight, values in zip(weights, of_corner, strict=True)),
         start=np.zeros(1, np.float32),

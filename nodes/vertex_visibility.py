@@ -1,4 +1,4 @@
-"""Which vertices of a mesh the camera sees."""
+"""Visibility of the vertices of a mesh."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from graphface.nodes.types import FloatArray, Mesh, Surface, Visibility
 def vertex_visibility(
     surface: Surface, mesh: Mesh, *, facing: float = 0.2, depth_tolerance: float = 0.05
 ) -> Visibility:
-    """How far the camera sees each vertex, float32 (V,), 0 to 1; see `surface.visibility`."""
-    turned = np.clip(facing_camera(mesh) / facing, 0, 1)
-    return np.asarray(unoccluded(surface, mesh, depth_tolerance) * turned, np.float32)
+    """How visible each vertex is, float32 (V,), 0 to 1; see `surface.visibility`."""
+    towards_camera = np.clip(facing_camera(mesh) / facing, 0, 1)
+    return np.asarray(unoccluded(surface, mesh, depth_tolerance) * towards_camera, np.float32)
 
 
 def unoccluded(surface: Surface, mesh: Mesh, depth_tolerance: float) -> FloatArray:
-    """1 for the vertices inside of the frame with no other surface before them: float32 (V,).
+    """1 for the vertices inside the frame that no other surface occludes: float32 (V,).
 
     Args:
-        surface: the mesh drawn into the picture. depth_tolerance: depth, in inter-ocular distances, behind the surface
-            that was drawn up to which a vertex is part of it; at twice that the value is 0.
+        surface: the mesh drawn into the picture.
+        depth_tolerance: depth behind the drawn surface up to which a vertex is visible, in inter-ocular distances; at
+            twice that the value is 0.
     """
     row, column, inside = vertex_pixels(mesh, surface.coverage.shape)
     drawn = surface.coverage[row, column] > 0
@@ -30,7 +31,7 @@ def unoccluded(surface: Surface, mesh: Mesh, depth_tolerance: float) -> FloatArr
 
 
 def vertex_pixels(mesh: Mesh, shape: tuple[int, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
-    """Row and column of the picture's pixel nearest to each vertex, and whether the vertex lies inside of the frame.
+    """Row and column of the picture's pixel nearest to each vertex, and whether the vertex lies inside the frame.
 
     Three arrays (V,); `shape` is the picture's (height, width).
     """
@@ -44,7 +45,7 @@ def vertex_pixels(mesh: Mesh, shape: tuple[int, ...]) -> tuple[NDArray[np.intp],
 def facing_camera(mesh: Mesh) -> FloatArray:
     """Cosine between each vertex's normal and the direction to the camera: float32 (V,)."""
     nearness = mesh.camera.nearness
-    # The camera stands at (0, 0, 1 / nearness); scaled by nearness, infinitely far away is no special case.
+    # The camera is at (0, 0, 1 / nearness); times nearness, infinite distance is no special case.
     towards = np.array([0, 0, 1]) - nearness * mesh.vertices.astype(np.float64)
     towards /= np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), 1e-9)
     return np.asarray(np.einsum("vc,vc->v", mesh.normals, towards), np.float32)

@@ -7,16 +7,16 @@ import numpy as np
 from graphface.nodes.geometry.morphable import morphable
 from graphface.nodes.morphable.builtin import builtin_model
 from graphface.nodes.morphable.model import Basis, MorphableModel
-from graphface.nodes.morphable.pose import turned
+from graphface.nodes.morphable.pose import rotated
 from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import Image, Landmarks, Mesh, Surface
 
 
 def rotation_of(yaw=0.0, pitch=0.0, roll=0.0):
     """The rotation of a face that looks `yaw` degrees to the right and `pitch` up, rolled about its own axis."""
-    turn = turned(np.eye(3), np.array([0, 0, np.radians(roll)]))
-    turn = turned(turn, np.array([-np.radians(pitch), 0, 0]))
-    return turned(turn, np.array([0, np.radians(yaw), 0]))
+    rotation = rotated(np.eye(3), np.array([0, 0, np.radians(roll)]))
+    rotation = rotated(rotation, np.array([-np.radians(pitch), 0, 0]))
+    return rotated(rotation, np.array([0, np.radians(yaw), 0]))
 
 
 def landmarks_of(

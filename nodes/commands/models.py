@@ -92,12 +92,12 @@ def learn(
     from graphface.nodes.morphable.storage import save_model
 
     expression = expression if people is not None else 0
-    model, lesson = learn_from_photos(folder, people, name, identity=identity, expression=expression, card=card)
+    model, figures = learn_from_photos(folder, people, name, identity=identity, expression=expression, card=card)
     save_model(model, out, half=True)
     print(
-        f"{out}: from {lesson.faces} portraits and {lesson.photos_of_people} photographs of {lesson.people} people; "
-        f"leaves {lesson.left:.2f} % of the eye distance, {lesson.left_unseen:.2f} % on unseen faces; "
-        f"prior of {lesson.components} Gaussians"
+        f"{out}: from {figures.faces} portraits and {figures.photos_of_people} photographs of {figures.people} people; "
+        f"leaves {figures.left:.2f} % of the eye distance, {figures.left_unseen:.2f} % on unseen faces; "
+        f"prior of {figures.components} Gaussians"
     )
 
 
@@ -135,12 +135,12 @@ def labels(
     from dataclasses import replace
 
     from graphface.nodes.learning.face_model import read_card
-    from graphface.nodes.learning.label_learning import Course, learn_labels
+    from graphface.nodes.learning.label_learning import Schedule, learn_labels
     from graphface.nodes.masks.label_weights import write_weights
 
     given = read_card(card)
-    course = Course() if steps is None else replace(Course(), steps=steps)
-    weights, made = learn_labels(photos, portraits, people, data, course, without or ())
+    schedule = Schedule() if steps is None else replace(Schedule(), steps=steps)
+    weights, made = learn_labels(photos, portraits, people, data, schedule, without or ())
     write_weights(weights, {**given, **made}, out)
     print(f"{out}: from {made['variations']} variations of {made['photographs']} photographs and of truth")
 

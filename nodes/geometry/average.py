@@ -8,7 +8,8 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.morphable.builtin import builtin_model
-from graphface.nodes.morphable.fit import CameraChoice, Settings, fit
+from graphface.nodes.morphable.fit import fit
+from graphface.nodes.morphable.fit_problem import CameraChoice, Settings
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.types import Image, Landmarks, Mesh
 

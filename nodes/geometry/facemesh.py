@@ -1,4 +1,4 @@
-"""The face's geometry straight from the landmark network's own depth."""
+"""The face's geometry from the landmark network's own depth."""
 
 from __future__ import annotations
 

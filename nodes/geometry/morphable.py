@@ -8,7 +8,8 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.morphable.builtin import builtin_model
-from graphface.nodes.morphable.fit import CameraChoice, PriorChoice, Settings, fit
+from graphface.nodes.morphable.fit import fit
+from graphface.nodes.morphable.fit_problem import CameraChoice, PriorChoice, Settings
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.types import Image, Landmarks, Mesh
 
@@ -52,22 +53,22 @@ def morphable(
 
     Args:
         landmarks: "facemesh468" or "ibug68"; points that are not finite count as missing.
-        photo: gives the principal point and, for the camera "exif", the focal length. Without it the camera looks at
+        photo: gives the principal point and, for the camera "exif", the focal length. Without it the principal point is
             the middle of the face.
-        model: the built-in one by default; a file made by `graphface models import` as a graph input.
-        camera: "weak" perspective; "assumed" `distance`; distance "estimated" around it; or from the photo's "exif".
-            Weak is the default: on path-traced heads seen from 9 eye distances the normals come out the same.
+        model: the built-in one by default; as a graph input, a file that `graphface models import` wrote.
+        camera: "weak" perspective; perspective at the "assumed" `distance`; at an "estimated" distance near it; or by
+            the photo's "exif". On path-traced heads seen from 9 eye distances the normals of all are the same.
         distance: of the camera, in distances between the outer eye corners (about 9 cm).
         prior: the model's Gaussian "mixture", as in the paper, or the single "gaussian" (Tikhonov).
-        strength: weight of the prior; larger keeps closer to the average face.
-        noise: how far a landmark lies from its place, one standard deviation, in eye distances.
-        robust: error from which a landmark loses influence, in eye distances.
-        identity, expression: components to use at most; all by default.
+        strength: weight of the prior; a larger one keeps closer to the average face.
+        noise: standard deviation of a landmark's error, in eye distances.
+        robust: error from which a landmark loses influence (the scale of the robust loss), in eye distances.
+        identity, expression: largest number of components to use; all by default.
         slide: let the points of the jaw ("ibug68") slide to the outline as the head turns.
-        steps, tolerance: of the search.
+        steps: largest number of steps. tolerance: relative decrease of the cost at which the search ends.
 
     Returns:
-        The model's mesh in the camera frame, one unit a pixel at the face; `fit` tells how it was found.
+        The model's mesh in the camera frame, one unit a pixel at the face; `fit` is the record of the fit.
 
     Raises:
         UnusableLandmarks: fewer than 6 usable points, or all in one place.

@@ -1,8 +1,8 @@
-"""BlazeFace: faces and six points on each, from one look at a picture.
+"""BlazeFace: faces and six points on each, from one run of the network.
 
 Bazarevsky et al., BlazeFace: Sub-millisecond Neural Face Detection on Mobile GPUs, CVPR Workshops 2019. The network
-answers for a fixed grid of anchors, each with a logit, a box and six points relative to the anchor's centre.
-Overlapping answers are merged by their scores (the paper's tie resolution) rather than suppressed.
+gives a logit, a box and six points for each anchor of a fixed grid, relative to the anchor's center. Overlapping
+detections are averaged, weighted by their scores (the paper's tie resolution), rather than suppressed.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Range = Literal["near", "far"]
 
 
 MERGE_OVERLAP = 0.3
-"""Answers whose boxes overlap more than this (intersection over union) are one face."""
+"""Detections whose boxes overlap more than this (intersection over union) are one face."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,8 +47,13 @@ class Face:
         """The longer side of the box."""
         return float(max(self.box[2] - self.box[0], self.box[3] - self.box[1]))
 
-    def moved(self, matrix: FloatArray) -> Face:
-        """The face after a similarity, (2, 3), of the plane; the box is the upright one about the moved corners."""
+    @property
+    def center(self) -> FloatArray:
+        """The middle of the box, (2,)."""
+        return np.asarray((self.box[:2] + self.box[2:]) / 2, np.float32)
+
+    def transformed(self, matrix: FloatArray) -> Face:
+        """The face after a similarity (2, 3) of the plane; the box is the bounding box of the transformed corners."""
         left, top, right, bottom = self.box
         corners = np.array([[left, top], [right, top], [right, bottom], [left, bottom]], np.float32)
         corners = corners @ matrix[:, :2].T + matrix[:, 2]
@@ -76,7 +81,11 @@ _MODELS: dict[Range, _Model] = {
 def detect(pixels: FloatArray, *, model: Range = "near", min_score: float = 0.5) -> list[Face]:
     """All faces in `pixels` (float32 H x W x 3, sRGB, 0..1), the largest first.
 
-    The picture is shrunk or enlarged to fit the network's square; what the square has beyond it is black.
+    The picture is resized to fit the network's square, and padded with black.
+
+    Args:
+        model: "near" (256 x 256, faces down to about a twelfth of the picture) or "far" (192 x 192, smaller faces).
+        min_score: least confidence of a detection, 0..1.
     """
     network = _MODELS[model]
     square, matrix = _letterbox(pixels, network.side)
@@ -89,13 +98,13 @@ def detect(pixels: FloatArray, *, model: Range = "near", min_score: float = 0.5)
     half = np.maximum(raw[:, 1], 0) * network.side / 2
     points = (raw[:, 2:] + anchors[:, None]) * network.side
     boxes = np.concatenate([centers - half, centers + half], axis=1)
-    faces = [face.moved(matrix) for face in _merge(boxes, points, scores[chosen])]
+    faces = [face.transformed(matrix) for face in _merge(boxes, points, scores[chosen])]
     return sorted((f for f in faces if f.size > 0), key=lambda f: -f.size)
 
 
 def _letterbox(pixels: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
-    """The picture centred in a square, and the (2, 3) matrix from the square's continuous coordinates (0..side from
-    edge to edge) back to the picture's pixel centres."""
+    """The picture centered in a square, and the (2, 3) matrix from the square's continuous coordinates (0..side from
+    edge to edge) to the picture's pixels."""
     height, width = pixels.shape[:2]
     scale = side / max(height, width)
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
@@ -103,14 +112,14 @@ def _letterbox(pixels: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
     left, top = (side - size[0]) // 2, (side - size[1]) // 2
     square = np.zeros((side, side, 3), np.float32)
     square[top : top + size[1], left : left + size[0]] = small
-    back_x, back_y = width / size[0], height / size[1]
-    matrix = np.array([[back_x, 0, -left * back_x - 0.5], [0, back_y, -top * back_y - 0.5]], np.float32)
+    step_x, step_y = width / size[0], height / size[1]
+    matrix = np.array([[step_x, 0, -left * step_x - 0.5], [0, step_y, -top * step_y - 0.5]], np.float32)
     return square, matrix
 
 
 @cache
 def _anchors(grids: tuple[tuple[int, int], ...]) -> FloatArray:
-    """Cell centres in 0..1, (n, 2), row by row, each as often as its cell has anchors."""
+    """Centers of the cells in 0..1, (n, 2), row by row, each repeated for every anchor of its cell."""
     levels = []
     for cells, repeats in grids:
         y, x = np.mgrid[:cells, :cells]
@@ -120,18 +129,18 @@ def _anchors(grids: tuple[tuple[int, int], ...]) -> FloatArray:
 
 
 def _merge(boxes: Floats, points: Floats, scores: Floats) -> list[Face]:
-    """Groups of overlapping answers, best first, each replaced by its mean weighted with the scores."""
-    left = list(np.argsort(-scores, kind="stable"))
+    """Groups of overlapping detections, best first, each replaced by its mean, weighted by the scores."""
+    remaining = list(np.argsort(-scores, kind="stable"))
     faces = []
-    while left:
-        best = left[0]
-        overlap = _overlap(boxes[best], boxes[left])
-        group = [i for i, o in zip(left, overlap, strict=True) if o > MERGE_OVERLAP or i == best]
+    while remaining:
+        best = remaining[0]
+        overlap = _overlap(boxes[best], boxes[remaining])
+        group = [i for i, o in zip(remaining, overlap, strict=True) if o > MERGE_OVERLAP or i == best]
         weights = scores[group] / max(float(scores[group].sum()), 1e-9)
         box = np.tensordot(weights, boxes[group], axes=1)
-        middle = np.tensordot(weights, points[group], axes=1)
-        faces.append(Face(box.astype(np.float32), middle.astype(np.float32), float(scores[best])))
-        left = [i for i in left if i not in set(group)]
+        mean_points = np.tensordot(weights, points[group], axes=1)
+        faces.append(Face(box.astype(np.float32), mean_points.astype(np.float32), float(scores[best])))
+        remaining = [i for i in remaining if i not in set(group)]
     return faces
 
 

@@ -1,4 +1,4 @@
-"""The upright square that a face is read from, and the way back to the picture."""
+"""The upright square around a face, and the map from its pixels back to the picture's."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class Crop:
     angle: float
 
     def read(self, pixels: FloatArray, size: int) -> FloatArray:
-        """The square as float32 (size, size, 3); beyond the picture it is black.
+        """The square as float32 (size, size, 3); black beyond the picture.
 
-        A square much larger than `size` is first shrunk by area averaging, since bilinear sampling would alias.
+        A square much larger than `size` is first reduced by area means, since bilinear interpolation would alias.
         """
         scale = min(1.0, 2 * size / max(self.side, 1e-6))
         if scale < 1:
@@ -49,7 +49,7 @@ class Crop:
         return np.concatenate([flat, depth], axis=1).astype(np.float32)
 
     def _matrix(self, size: int) -> NDArray[np.float64]:
-        """(2, 3), from the pixel centres of the read crop to those of the picture."""
+        """(2, 3), from pixels of the resampled square to those of the picture."""
         scale = self.side / size
         cos, sin = np.cos(self.angle) * scale, np.sin(self.angle) * scale
         rotation = np.array([[cos, -sin], [sin, cos]])
@@ -58,7 +58,7 @@ class Crop:
         return np.concatenate([rotation, shift[:, None]], axis=1)
 
     def _surroundings(self, pixels: FloatArray) -> tuple[FloatArray, NDArray[np.float64]]:
-        """The part of the picture that the square can touch, and the pixel at its corner."""
+        """The part of the picture around the square, and the pixel at its upper left corner."""
         reach = self.side / np.sqrt(2) + 2
         height, width = pixels.shape[:2]
         left, right = np.clip([self.center[0] - reach, self.center[0] + reach], 0, width)
@@ -69,12 +69,15 @@ class Crop:
 
 
 def crop_about(points: FloatArray, eyes: FloatArray, *, margin: float) -> Crop:
-    """The square about `points` (n, 2), turned so that the line through `eyes` (2, 2) is level; `margin` times the
-    longer side of the points' bounding box in the turned frame."""
+    """The square around points (n, 2), rotated so that the line through `eyes` (2, 2) is level.
+
+    Args:
+        margin: side of the square over the longer side of the points' bounding box in the rotated frame.
+    """
     across = eyes[1] - eyes[0]
     angle = float(np.arctan2(across[1], across[0]))
     cos, sin = np.cos(angle), np.sin(angle)
-    turned = points @ np.array([[cos, -sin], [sin, cos]])
-    low, high = turned.min(axis=0), turned.max(axis=0)
+    rotated = points @ np.array([[cos, -sin], [sin, cos]])
+    low, high = rotated.min(axis=0), rotated.max(axis=0)
     center = np.array([[cos, -sin], [sin, cos]]) @ ((low + high) / 2)
     return Crop((float(center[0]), float(center[1])), float(max(high - low)) * margin, angle)

@@ -1,8 +1,8 @@
 """FaceMesh: 468 points with depth on a face.
 
 Kartynnik et al., Real-time Facial Surface Geometry from Monocular Video on Mobile GPUs, CVPR Workshops 2019. The
-network reads an upright square crop; the first crop comes from the detector, further ones from the mesh itself,
-which knows the face's extent and tilt much better.
+network sees an upright square crop. The first crop comes from the detector, further ones from the mesh itself, which
+gives the face's extent and roll more exactly.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ SIDE = 192
 
 
 MARGIN = 1.5
-"""Side of the crop over the size of the face in it, as in training."""
+"""Side of the crop over the size of the face in it, as in the network's training."""
 
 
 EYES = [33, 263]
@@ -34,24 +34,24 @@ EYES = [33, 263]
 
 
 _DETECTOR_POINTS = ([33, 133], [263, 362], [4], [13, 14])
-"""The mesh's points about the detector's first four: right eye, left eye, nose tip, mouth."""
+"""The mesh's points at the detector's first four: right eye, left eye, nose tip, mouth."""
 
 
 MAX_DISAGREEMENT = 0.25
-"""More than this, and detector and mesh do not speak of the same face; see `disagreement`."""
+"""Above this, detector and mesh do not show the same face; see `disagreement`."""
 
 
 Unit = Annotated[float, Field(ge=0, le=1)]
 
 
 class NoFaceFound(RunError):
-    """No face in the picture; `tried` are the ways it was looked for."""
+    """No face in the picture; `tried` are the views that were searched."""
 
     def __init__(self, size: tuple[int, int], tried: list[str]) -> None:
         self.size = size
         self.tried = tried
         super().__init__(
-            f"no face found in the photo ({size[0]} x {size[1]} pixels); looked at it {', '.join(tried)}. "
+            f"no face found in the photo ({size[0]} x {size[1]} pixels); searched it {', '.join(tried)}. "
             "Crop the photo closer to the face, lower min_score, or give the points from a file"
         )
 
@@ -78,20 +78,20 @@ def facemesh(
     """468 points (scheme "facemesh468") on one face of the photo, in its pixels at full resolution.
 
     Args:
-        photo: any size; the faces are searched on a reduced copy, the points read from the full picture.
-        face: "largest", or an index in order of size, 0 being the largest. With an index, small faces are searched for
-            more thoroughly (0.1 s more on a large photo).
-        min_score: confidence that a detection needs.
-        min_mesh_score: confidence, from the mesh network, that a detection is a face after all.
-        passes: runs of the mesh network, each crop taken from the mesh before. Measured on 15 portraits, the points lie
-            1.9, 1.1 and 0.7 % of the inter-ocular distance from where 5 passes put them after 1, 2 and 3; each takes
-            about 4 ms.
+        photo: any size; faces are searched on a reduced copy, points are found on the full picture.
+        face: "largest", or an index in order of size, 0 being the largest. With an index the search for small faces is
+            more thorough (0.1 s more on a large photo).
+        min_score: least confidence of the detector in a face.
+        min_mesh_score: least confidence of the mesh network in that face.
+        passes: runs of the mesh network, each on a crop from the mesh of the previous run. On 15 portraits the points
+            of 1, 2 and 3 passes differ from those of 5 by 1.9, 1.1 and 0.7 % of the inter-ocular distance; each pass
+            takes about 4 ms.
 
     Returns:
-        Points float32 (468, 3): x right, y down, z towards the viewer, all in pixels; z is zero amid the mesh.
+        Points float32 (468, 3): x right, y down, z towards the viewer, all in pixels; z is about 0 in the middle.
 
     Raises:
-        NoFaceFound: says everything that was tried.
+        NoFaceFound: names the views that were searched.
         NoSuchFace: `face` is not below the number of faces.
         AssetUnavailable: the network weights are not on this machine and cannot be fetched.
     """
@@ -109,7 +109,7 @@ def facemesh(
     if index >= len(found):
         raise NoSuchFace(index, len(found))
     if len(tried) > 1:
-        warn(f"the face was hard to find: looked at the photo {', '.join(tried)}")
+        warn(f"the face was hard to find: searched the photo {', '.join(tried)}")
     points, score = found[index]
     return Landmarks(points, "facemesh468", score, len(found))
 
@@ -117,13 +117,12 @@ def facemesh(
 def read_mesh(photo: Image, face: Face, *, passes: int = 2) -> tuple[FloatArray, float]:
     """The mesh of one detected face, (468, 3) as `facemesh` returns it, and its confidence 0..1.
 
-    The confidence is the lowest of all passes: on a false detection the first crop scores low, yet a later one, drifted
-    to whatever looks most like a face, may score 1.
+    The confidence is the lowest of all passes: on a false detection the first crop scores low, but a later one may have
+    drifted to something that looks like a face, and score 1.
     """
-    center = (face.box[:2] + face.box[2:]) / 2
     across = face.points[1] - face.points[0]
     angle = float(np.arctan2(across[1], across[0]))
-    crop = Crop((float(center[0]), float(center[1])), max(face.size, 1.0) * MARGIN, angle)
+    crop = Crop((float(face.center[0]), float(face.center[1])), max(face.size, 1.0) * MARGIN, angle)
     points, score = _mesh_in(photo, crop)
     for _ in range(passes - 1):
         crop = crop_about(points[:, :2], points[EYES, :2], margin=MARGIN)
@@ -133,8 +132,10 @@ def read_mesh(photo: Image, face: Face, *, passes: int = 2) -> tuple[FloatArray,
 
 
 def disagreement(points: FloatArray, face: Face) -> float:
-    """How far the mesh puts eyes, nose and mouth from where the detector put them: mean distance over the mesh's
-    inter-ocular distance. Measured at most 0.1 on faces, in profile too; 0.1 to 0.3 on false detections."""
+    """Mean distance between the mesh's and the detector's eyes, nose and mouth, over the mesh's inter-ocular distance.
+
+    Measured at most 0.1 on faces, also in profile; 0.1 to 0.3 on false detections.
+    """
     mesh = np.stack([points[group, :2].mean(axis=0) for group in _DETECTOR_POINTS])
     interocular = float(np.linalg.norm(points[EYES[0]] - points[EYES[1]]))
     return float(np.linalg.norm(mesh - face.points[:4], axis=1).mean()) / max(interocular, 1e-6)

@@ -1,4 +1,4 @@
-"""Points that somebody placed, instead of a network's."""
+"""Points that the user gives, instead of a network's."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from graphface.nodes.types import Image, Landmarks
 
 @node("landmarks.given")
 def given(photo: Image, points: Landmarks) -> Landmarks:
-    """The points as they are, once checked against the photo.
+    """The given points, unchanged, after a check against the photo.
 
-    The points are a graph input (`points: {type: Landmarks}`), not a file name among the parameters: so their content
-    is part of every key, and a file edited by hand is noticed.
+    Points are a graph input (`points: {type: Landmarks}`) and not the name of a file as a parameter, so that their
+    content is part of every key, and an edited file is noticed.
 
     Raises:
         UnusableLandmarks: not (n, 3) for the scheme's n, not finite, wholly outside the photo, or all in one place.

@@ -1,7 +1,7 @@
 """Running a TensorFlow Lite network with OpenCV.
 
-A `cv2.dnn.Net` keeps its input and its layers' blobs, so it serves one thread at a time: every thread has its own. The
-classic engine is asked for by name: the new one of OpenCV 5.0 loses the detectors' second output.
+A `cv2.dnn.Net` holds its input and the outputs of its layers, so every thread has its own. The classic engine is
+requested explicitly: the new one of OpenCV 5.0 loses the detectors' second output.
 """
 
 from __future__ import annotations
@@ -44,6 +44,6 @@ def sigmoid(logits: NDArray[np.float32]) -> NDArray[np.float32]:
 def _net(asset: Asset) -> Any:
     nets: dict[str, Any] = _threads.__dict__.setdefault("nets", {})
     if asset.name not in nets:
-        path = str(weights_path(asset))  # reading from a buffer takes the new engine, whatever is asked for
+        path = str(weights_path(asset))  # from a buffer OpenCV always uses the new engine
         nets[asset.name] = cv2.dnn.readNetFromTFLite(path, engine=cv2.dnn.ENGINE_CLASSIC)
     return nets[asset.name]

@@ -1,8 +1,8 @@
-"""Finding faces that one look at the picture misses.
+"""Faces that one run of the detector misses.
 
-BlazeFace was made for a phone's camera: it wants some air around a face, misses faces below about a twelfth of the
-picture, and knows only heads that are roughly upright. Each rung of the ladder below undoes one of these; the first
-rung with a face that stands up to `confirm` ends the search.
+BlazeFace was trained on pictures of a phone's camera. It needs a margin around a face, misses faces smaller than about
+a twelfth of the picture, and detects only heads that are roughly upright. So several views of the photo are tried in
+turn: as it is, with a border, in tiles, rotated. The first group of views with a confirmed face ends the search.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from graphface.nodes.network_pixels import network_pixels
 from graphface.nodes.types import FloatArray, Image
 
 LONG_SIDE = 1600
-"""Searching is done on a copy no larger than this; the networks see 256 pixels, or tiles of it."""
+"""Longest side of the copy that is searched; the networks see 256 pixels of it, or of a tile."""
 
 
 SURE = 0.75
-"""Detector score from which the first rung is believed alone. Measured: whole faces 0.74 and more, parts of a face up
-to 0.64."""
+"""Detector score from which a face in the first view ends the search. Measured: whole faces 0.74 and more, parts of a
+face up to 0.64."""
 
 
 T = TypeVar("T")
@@ -33,7 +33,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class View:
-    """One way of looking at the picture: `matrix` (2, 3) takes the view's pixels back to the picture's."""
+    """One view of the picture: `matrix` (2, 3) maps the view's pixels to the picture's."""
 
     name: str
     pixels: FloatArray
@@ -44,20 +44,20 @@ class View:
 def search(
     photo: Image, confirm: Callable[[Face], T | None], *, min_score: float, thorough: bool = False
 ) -> tuple[list[T], list[str]]:
-    """What `confirm` makes of the faces found, largest first, and the names of the views it took.
+    """The results of `confirm` for the faces found, largest first, and the names of the views that were tried.
 
-    The ladder ends at the first rung after which a face is confirmed, except that a weak one on the first rung (half
-    a face in a tight crop also looks like a face) has to hold its own against the second.
+    The search ends after the first group of views with a confirmed face. A weak face in the first group is compared
+    with the second group: half a face in a tight crop also looks like a face.
 
     Args:
         photo: the picture.
-        confirm: given a face in picture pixels, what stands of it, or None for a false detection.
-        min_score: of the detector, 0..1.
-        thorough: look into the tiles in any case, for small faces beside a large one.
+        confirm: the result for a face, given in picture pixels; None for a false detection.
+        min_score: least confidence of a detection, 0..1.
+        thorough: search the tiles in any case, for small faces beside a large one.
     """
     tried: list[str] = []
     found: dict[Face, T] = {}
-    for views in _ladder(photo, thorough):
+    for views in _views(photo, thorough):
         tried.append(views[0].name)
         for face in distinct([f for view in views for f in _faces(view, min_score)]):
             confirmed = confirm(face)
@@ -69,13 +69,14 @@ def search(
 
 
 def _faces(view: View, min_score: float) -> list[Face]:
-    return [face.moved(view.matrix) for face in detect(view.pixels, model=view.model, min_score=min_score)]
+    return [face.transformed(view.matrix) for face in detect(view.pixels, model=view.model, min_score=min_score)]
 
 
-def _ladder(photo: Image, thorough: bool) -> Iterator[list[View]]:
+def _views(photo: Image, thorough: bool) -> Iterator[list[View]]:
+    """Groups of views in the order in which they are tried."""
     small, shrink = _shrunk(photo.pixels)
     if not np.isfinite(small).all():
-        warn("the photo has values that are not numbers: taken as black to find the face")
+        warn("the photo has values that are not numbers: they count as black in the search for faces")
     small = network_pixels(small, photo.encoding)
     tiles = [*_tiles(small, shrink, 2), *_tiles(small, shrink, 3)]
     whole = [View("as it is", small, shrink), View("as it is", small, shrink, "far")]
@@ -85,12 +86,12 @@ def _ladder(photo: Image, thorough: bool) -> Iterator[list[View]]:
     yield [View("with a border around it", padded, pad), View("with a border around it", padded, pad, "far")]
     if tiles and not thorough:
         yield tiles
-    for name, turn in _TURNS.items():
-        turned, matrix = _turned(padded, turn)
-        yield [View(name, turned, _after(pad, matrix))]
+    for name, code in _ROTATIONS.items():
+        rotated, matrix = _rotated(padded, code)
+        yield [View(name, rotated, _after(pad, matrix))]
 
 
-_TURNS = {
+_ROTATIONS = {
     "turned left": cv2.ROTATE_90_COUNTERCLOCKWISE,
     "turned right": cv2.ROTATE_90_CLOCKWISE,
     "upside down": cv2.ROTATE_180,
@@ -109,14 +110,14 @@ def _shrunk(pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _padded(pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A border of half the longer side, in black: the frame of a tight crop looks like a photograph of a head."""
+    """With a black border of half the longer side, so that a tight crop becomes a picture of a whole head."""
     border = max(pixels.shape[:2]) // 2
     padded = cv2.copyMakeBorder(pixels, border, border, border, border, cv2.BORDER_CONSTANT)
     return np.asarray(padded, dtype=np.float32), np.array([[1, 0, -border], [0, 1, -border]], np.float32)
 
 
 def _tiles(pixels: FloatArray, matrix: FloatArray, count: int) -> Iterator[View]:
-    """`count` x `count` tiles that overlap by half, where they still have detail that the whole view lost."""
+    """`count` x `count` tiles that overlap by half; none where they would be too small to show more than the whole."""
     height, width = pixels.shape[:2]
     side = round(2 * max(height, width) / (count + 1))
     if side < 128:
@@ -132,14 +133,14 @@ def _starts(length: int, side: int, count: int) -> list[int]:
     return sorted({round(i * max(length - side, 0) / max(count - 1, 1)) for i in range(count)})
 
 
-def _turned(pixels: FloatArray, turn: int) -> tuple[FloatArray, FloatArray]:
+def _rotated(pixels: FloatArray, code: int) -> tuple[FloatArray, FloatArray]:
     height, width = pixels.shape[:2]
     matrix = {
         cv2.ROTATE_90_COUNTERCLOCKWISE: [[0, -1, width - 1], [1, 0, 0]],
         cv2.ROTATE_90_CLOCKWISE: [[0, 1, 0], [-1, 0, height - 1]],
         cv2.ROTATE_180: [[-1, 0, width - 1], [0, -1, height - 1]],
-    }[turn]
-    return np.asarray(cv2.rotate(pixels, turn), dtype=np.float32), np.array(matrix, np.float32)
+    }[code]
+    return np.asarray(cv2.rotate(pixels, code), dtype=np.float32), np.array(matrix, np.float32)
 
 
 def _after(outer: FloatArray, inner: FloatArray) -> FloatArray:
@@ -148,10 +149,9 @@ def _after(outer: FloatArray, inner: FloatArray) -> FloatArray:
 
 
 def distinct(faces: list[Face]) -> list[Face]:
-    """Largest first, each face once: tiles overlap, so the same face comes several times."""
+    """Each face once, largest first: overlapping tiles show the same face several times."""
     kept: list[Face] = []
     for face in sorted(faces, key=lambda f: -f.score):
-        center = (face.box[:2] + face.box[2:]) / 2
-        if not any(np.abs(center - (k.box[:2] + k.box[2:]) / 2).max() < 0.5 * max(face.size, k.size) for k in kept):
+        if not any(np.abs(face.center - k.center).max() < 0.5 * max(face.size, k.size) for k in kept):
             kept.append(face)
     return sorted(kept, key=lambda f: -f.size)

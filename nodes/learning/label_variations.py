@@ -1,4 +1,4 @@
-"""Few photos, many pictures: lessons in other light, colors and frames, before other backdrops, with landmarks off."""
+"""Augmentation: training pictures with other light, colors, frames and backdrops, and displaced landmarks."""
 
 from __future__ import annotations
 
@@ -8,45 +8,45 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.random import Generator
 
-from graphface.nodes.learning.label_lessons import Bytes, Lesson
+from graphface.nodes.learning.label_pictures import Bytes, TrainingPicture
 from graphface.nodes.masks.network_input import mirrored_input, network_input
 from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
 from graphface.nodes.types import FloatArray, Landmarks
 
-UNSURE = 0.25
-"""Weight of a pixel that the teacher cannot tell, beside one that it is sure of."""
+UNCERTAIN_WEIGHT = 0.25
+"""Weight of a pixel that the teacher is uncertain of, relative to a certain one."""
 
 
 @dataclass(frozen=True)
 class Example:
-    """`cells` (HEIGHT/2, WIDTH/2, C), what the network sees; `labels` HEIGHT x WIDTH x 3, `weight` HEIGHT x WIDTH."""
+    """`cells` (HEIGHT/2, WIDTH/2, C), the network's input; `labels` HEIGHT x WIDTH x 3, `weight` HEIGHT x WIDTH."""
 
     cells: FloatArray
     labels: FloatArray
     weight: FloatArray
 
 
-def example(lesson: Lesson, others: Sequence[Lesson], random: Generator) -> Example:
-    """A variation of a lesson; backdrops may come from the others."""
-    landmarks = _misplaced(lesson.landmarks, random)
+def example(picture: TrainingPicture, others: Sequence[TrainingPicture], random: Generator) -> Example:
+    """A random variation of a picture; its backdrop may come from the others."""
+    landmarks = _displaced(picture.landmarks, random)
     grid = upright_grid(landmarks)
 
     def sampled(values: Bytes) -> FloatArray:
         return np.asarray(grid.sampled(values) / 255, np.float32)
 
-    pixels, labels, person = sampled(lesson.pixels), sampled(lesson.labels), sampled(lesson.person)
-    seen = (sampled(lesson.seen) > 0.5) * _frame(random)
+    pixels, labels, person = sampled(picture.pixels), sampled(picture.labels), sampled(picture.person)
+    inside = (sampled(picture.inside) > 0.5) * _frame(random)
     if random.random() < 0.3:
         other = others[int(random.integers(len(others)))].plate
         plate = _plate(other, random)
         pixels = person[..., None] * pixels + (1 - person[..., None]) * plate
     pixels = _recolored(pixels, labels, person, random)
-    pixels = _taken_again(_lit(pixels, random), random)
-    input_ = network_input(pixels, np.asarray(seen, np.float32), grid.layout(landmarks))
+    pixels = _recaptured(_lit(pixels, random), random)
+    input_ = network_input(pixels, np.asarray(inside, np.float32), grid.layout(landmarks))
     target = np.dstack([labels, np.maximum(1 - labels.sum(axis=2), 0)])
     target /= np.maximum(target.sum(axis=2, keepdims=True), 1e-6)
-    sure = np.clip(2 * target.max(axis=2) - 1, 0, 1)
-    weight = seen * (UNSURE + (1 - UNSURE) * sure)
+    certainty = np.clip(2 * target.max(axis=2) - 1, 0, 1)
+    weight = inside * (UNCERTAIN_WEIGHT + (1 - UNCERTAIN_WEIGHT) * certainty)
     if random.random() < 0.5:
         input_, target, weight = mirrored_input(input_), target[:, ::-1], weight[:, ::-1]
     return Example(
@@ -56,8 +56,8 @@ def example(lesson: Lesson, others: Sequence[Lesson], random: Generator) -> Exam
     )
 
 
-def _misplaced(landmarks: Landmarks, random: Generator) -> Landmarks:
-    """Landmarks as another detector may have found them: moved, turned and scaled a little, each with some noise."""
+def _displaced(landmarks: Landmarks, random: Generator) -> Landmarks:
+    """Landmarks as another detector might give them: moved, rotated and scaled a little, each with some noise."""
     points = landmarks.points.copy()
     unit, middle = landmarks.interocular, points[:, :2].mean(axis=0)
     turn, grow = random.normal(0, 0.06), np.exp(random.normal(0, 0.04, 2))
@@ -69,18 +69,18 @@ def _misplaced(landmarks: Landmarks, random: Generator) -> Landmarks:
 
 
 def _frame(random: Generator) -> FloatArray:
-    """1 within the frame: the whole grid, a frame that cuts the head somewhere, or one close about the face."""
-    seen = np.ones((HEIGHT, WIDTH), np.float32)
+    """1 within a random frame: the whole grid, a frame that cuts the head, or a tight crop of the face."""
+    inside = np.ones((HEIGHT, WIDTH), np.float32)
     kind = random.random()
     chance, furthest = (0.0, 0.0) if kind < 0.45 else (0.4, 2.8) if kind < 0.75 else (0.85, 1.6)
-    for turned in (seen, seen[::-1], seen.T, seen.T[::-1]):
+    for side in (inside, inside[::-1], inside.T, inside.T[::-1]):
         if random.random() < chance:
-            turned[len(turned) // 2 + round(UNIT * random.uniform(0.7, furthest)) :] = 0
-    return seen
+            side[len(side) // 2 + round(UNIT * random.uniform(0.7, furthest)) :] = 0
+    return inside
 
 
 def _plate(plate: Bytes, random: Generator) -> FloatArray:
-    """A part of another backdrop, or a plain one, HEIGHT x WIDTH x 3."""
+    """A part of another backdrop, or a smooth gradient, HEIGHT x WIDTH x 3."""
     import cv2
 
     if random.random() < 0.3:
@@ -95,7 +95,7 @@ def _plate(plate: Bytes, random: Generator) -> FloatArray:
 
 
 def _recolored(pixels: FloatArray, labels: FloatArray, person: FloatArray, random: Generator) -> FloatArray:
-    """Skin, hair, clothes and backdrop in other colors, each with its own chance."""
+    """Skin, hair, clothes and backdrop in other colors, each with its own probability."""
     import cv2
 
     face, hair = labels[..., 0], labels[..., 1]
@@ -133,8 +133,8 @@ def _lit(pixels: FloatArray, random: Generator) -> FloatArray:
     return np.asarray(np.clip(np.clip(pixels, 0, 1) ** power * light, 0, 1), np.float32)
 
 
-def _taken_again(pixels: FloatArray, random: Generator) -> FloatArray:
-    """By another camera: grey, blurred, noisy."""
+def _recaptured(pixels: FloatArray, random: Generator) -> FloatArray:
+    """As if by another camera: grey, blurred, noisy."""
     import cv2
 
     if random.random() < 0.12:

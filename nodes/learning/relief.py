@@ -1,8 +1,8 @@
 """The relief of the built-in model, learned from path-traced heads whose normals are known.
 
 `graphface models relief learned.safetensors --data DATA` made the built-in model of the one that `graphface models
-learn` had written. Six heads are few, so the figures that count are those of heads that took no part, and of other
-faces altogether.
+learn` had written. Six heads are few, so what counts is the accuracy on heads outside the training set, and on other
+faces.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from statistics import fmean
 from graphface import Evaluator, MemoryTier, Result
 from graphface.nodes.bench.geometry_graphs import model_graph
 from graphface.nodes.bench.heads import Head, heads_of
+from graphface.nodes.learning.surface_relief import Difference, learned_relief, normal_difference, with_relief
 from graphface.nodes.metrics import normal_angle
 from graphface.nodes.morphable.model import MorphableModel
-from graphface.nodes.morphable.relief import Difference, learned_relief, normal_difference, with_relief
 from graphface.nodes.morphable.storage import refined
 
 _LEVELS = 1

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.bounding_box import Box, bounding_box
 from graphface.nodes.types import FloatArray, Segmentation
 
 
@@ -15,7 +16,7 @@ class Band:
     """The rectangle `part` of a photo that holds all `unknown` pixels, with a margin of two; `unknown` is bool, of its
     size."""
 
-    part: tuple[slice, slice]
+    part: Box
     unknown: NDArray[np.bool_]
 
     @property
@@ -36,10 +37,11 @@ def band_of(labels: Segmentation, unit: float, *, width: float, hair_width: floa
     unknown = near_face & (near_hair | near_background)
     reach = max(hair_width * unit, 1.0)
     unknown |= _near(label == 1, reach) & _near(label == 2, reach)
-    return _cropped(unknown)
+    part = bounding_box(unknown, margin=2) or (slice(0, 0), slice(0, 0))
+    return Band(part, unknown[part])
 
 
-def hard_alphas(labels: Segmentation, part: tuple[slice, slice]) -> FloatArray:
+def hard_alphas(labels: Segmentation, part: Box) -> FloatArray:
     """Face and hair as 0 or 1 by the most likely label, h x w x 2."""
     stacked = np.stack([labels.face[part], labels.hair[part], labels.background[part]])
     return np.asarray(stacked.argmax(axis=0)[..., None] == (0, 1), np.float32)
@@ -68,11 +70,3 @@ def _near(mask: NDArray[np.bool_], reach: float) -> NDArray[np.bool_]:
     if not mask.any():
         return mask
     return np.asarray(cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5) <= reach)
-
-
-def _cropped(unknown: NDArray[np.bool_], margin: int = 2) -> Band:
-    rows, columns = np.flatnonzero(unknown.any(axis=1)), np.flatnonzero(unknown.any(axis=0))
-    if not len(rows):
-        return Band((slice(0, 0), slice(0, 0)), np.zeros((0, 0), bool))
-    part = tuple(slice(max(0, int(i[0]) - margin), int(i[-1]) + 1 + margin) for i in (rows, columns))
-    return Band(part, unknown[part])  # type: ignore[arg-type]

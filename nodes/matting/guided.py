@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
+from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.face_scale import FaceScale, face_scale
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
@@ -38,7 +39,7 @@ def guided(
         resolution: pixels per inter-ocular distance of the small copy.
     """
     unit = max(landmarks.interocular, 1e-3)
-    part = _foreground(labels, round(2 * radius * unit) + 2)
+    part = bounding_box(labels.background < 1 - 1e-4, margin=round(2 * radius * unit) + 2)
     if part is None:
         return labels
     guide = np.clip(np.nan_to_num(photo.pixels[part]), 0, 1).astype(np.float32, copy=False)
@@ -51,16 +52,6 @@ def guided(
     face, hair = labels.face.copy(), labels.hair.copy()
     face[part], hair[part] = filtered
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
-
-
-def _foreground(labels: Segmentation, margin: int) -> tuple[slice, slice] | None:
-    """The rectangle outside which everything is background, with a margin; None where there is nothing else."""
-    foreground = labels.background < 1 - 1e-4
-    rows, columns = np.flatnonzero(foreground.any(axis=1)), np.flatnonzero(foreground.any(axis=0))
-    if not len(rows):
-        return None
-    spans = [slice(max(0, int(i[0]) - margin), int(i[-1]) + 1 + margin) for i in (rows, columns)]
-    return spans[0], spans[1]
 
 
 def _coefficients(guide: FloatArray, alphas: FloatArray, side: int, ridge: float) -> FloatArray:

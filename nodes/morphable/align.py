@@ -1,4 +1,4 @@
-"""Shapes freed of position, size and turn: generalized Procrustes analysis."""
+"""Shapes aligned by position, scale and rotation: generalized Procrustes analysis."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ Array = NDArray[np.float64]
 
 
 def aligned(shapes: Array, target: Array, weights: Array | None = None) -> tuple[Array, Array]:
-    """Each of the shapes (F, V, 3) moved, scaled and turned onto `target` (V, 3) by least squares.
+    """Each of the shapes (F, V, 3) aligned to `target` (V, 3) by translation, scale and rotation, by least squares.
 
     Args:
-        weights: (V,) how much each point counts; all the same by default.
+        weights: (V,) of the points; equal by default.
 
     Returns:
-        The shapes (F, V, 3) and the rotations (F, 3, 3) that were undone (Umeyama 1991; no reflections).
+        The aligned shapes (F, V, 3) and the rotations (F, 3, 3) that were applied (Umeyama 1991; no reflections).
     """
     share = np.full(len(target), 1 / len(target)) if weights is None else weights / max(float(weights.sum()), 1e-12)
     middle = share @ target
     goal = target - middle
-    centred = shapes - np.einsum("v,fvi->fi", share, shapes)[:, None]
-    covariance = np.einsum("v,fvi,vj->fij", share, centred, goal)
+    centered = shapes - np.einsum("v,fvi->fi", share, shapes)[:, None]
+    covariance = np.einsum("v,fvi,vj->fij", share, centered, goal)
     u, sizes, vt = np.linalg.svd(covariance)
     sign = np.sign(np.linalg.det(u @ vt))
     u[:, :, 2] *= sign[:, None]
     sizes[:, 2] *= sign
-    turns = u @ vt
-    power = np.einsum("v,fvi,fvi->f", share, centred, centred)
+    rotations = u @ vt
+    power = np.einsum("v,fvi,fvi->f", share, centered, centered)
     scale = sizes.sum(axis=1) / np.maximum(power, 1e-12)
-    return scale[:, None, None] * centred @ turns + middle, turns
+    return scale[:, None, None] * centered @ rotations + middle, rotations
 
 
 def procrustes_mean(shapes: Array, start: Array, *, rounds: int = 6) -> Array:

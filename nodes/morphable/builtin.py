@@ -1,4 +1,4 @@
-"""The face model that ships: 468 FaceMesh points, learned by `graphface models learn`, subdivided once when read."""
+"""The built-in face model: 468 FaceMesh points, learned by `graphface models learn`, subdivided once when read."""
 
 from __future__ import annotations
 
@@ -13,5 +13,5 @@ BUILTIN = Path(__file__).with_name("builtin.safetensors")
 
 @cache
 def builtin_model() -> MorphableModel:
-    """The built-in model, read once; see the card beside it for what it was learned from and what it cannot do."""
+    """The built-in model, read once; the card beside it gives its training data and its limits."""
     return load_model(BUILTIN)

@@ -1,4 +1,4 @@
-"""The focal length that a camera wrote into the photo."""
+"""The focal length in the metadata of a photo."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _DIAGONAL_35MM = float(np.hypot(36, 24))
 
 
 def focal_length(photo: Image) -> float | None:
-    """In pixels, from EXIF's 35 mm equivalent; None where the photo does not tell.
+    """The focal length in pixels, from EXIF's 35 mm equivalent; None where the photo has none.
 
-    The equivalent is by the diagonal (CIPA DCG-001). A photo cropped after the shot misleads: EXIF is not told.
+    The equivalent is by the diagonal (CIPA DCG-001). It is wrong for a photo that was cropped afterwards.
     """
     if not photo.file.exif:
         return None

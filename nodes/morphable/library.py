@@ -1,4 +1,4 @@
-"""Models by name: the built-in one and those that `graphface models import` put into the user's model folder."""
+"""Models by name: the built-in one and those in the user's model folder, written by `graphface models import`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def model_folder() -> Path:
 
 
 def library() -> dict[str, Path]:
-    """Name to file of every model at hand, the built-in first."""
+    """Name to file of every available model, the built-in first."""
     imported = sorted(model_folder().glob("*.safetensors"))
     return {"builtin": BUILTIN, **{path.stem: path for path in imported}}
 
@@ -44,5 +44,5 @@ def named_model(name: str) -> MorphableModel:
         return load_model(Path(name))
     raise UsageError(
         f"no face model {name!r}{did_you_mean(nearest_names(name, known))} "
-        "(`graphface models list` shows those at hand; a .safetensors file is another)"
+        "(`graphface models list` shows those available; the name of a .safetensors file works, too)"
     )

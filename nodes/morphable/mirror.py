@@ -1,4 +1,4 @@
-"""Which vertex of a symmetric model each vertex becomes in a mirror."""
+"""The mirror image of each vertex of a symmetric model."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from graphface.nodes.morphable.model import MorphableModel
 
 _EXACT_TREE = 4
-"""FLANN_INDEX_KDTREE_SINGLE, the one of its trees that always finds the nearest."""
+"""FLANN_INDEX_KDTREE_SINGLE, the only one of its trees with exact results."""
 
 
 _TOLERANCE = 0.01
-"""How far, in eye distances, a vertex may lie from its partner's mirror image."""
+"""Largest distance of a vertex from its partner's mirror image, in eye distances."""
 
 
 @lru_cache(maxsize=16)
@@ -22,7 +22,7 @@ def mirror_vertices(model: MorphableModel) -> NDArray[np.int32] | None:
     """Partners (V,), or None where the mean face is not symmetric about x = 0."""
     import cv2
 
-    # OpenCV's tree, since it is loaded anyway: importing scipy's takes longer than all of a fit.
+    # OpenCV is loaded anyway, and importing SciPy's tree takes longer than a whole fit.
     mean = np.ascontiguousarray(model.mean, np.float32)
     tree = cv2.flann_Index(mean, {"algorithm": _EXACT_TREE})  # type: ignore[attr-defined]
     found, squared = tree.knnSearch(mean * np.array([-1, 1, 1], np.float32), 1, params={})

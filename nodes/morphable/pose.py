@@ -1,4 +1,4 @@
-"""Pose of a rigid shape from its projection, in closed form: where fitting starts."""
+"""Pose of a rigid shape from its projection, in closed form: the initial pose of a fit."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 class Pose:
     """Model to camera frame: `scale` (pixels) times `rotation` (3, 3), plus `offset` (2,) in the picture, y up.
 
-    `thinness` of the points seen: how much longer than wide they lie (1 for a disc, infinity for a line).
+    `thinness`: ratio of the principal deviations of the points in the picture (1 for a disc, infinity for a line).
     """
 
     rotation: Array
@@ -24,14 +24,14 @@ class Pose:
 
 
 def closed_form(shape: Array, points: Array, *, rounds: int = 8, ridge: float = 1e-6) -> Pose:
-    """The scaled-orthographic pose that takes `shape` (n, 3) to `points` (n, 2; y up), robust to some wild points.
+    """The scaled-orthographic pose that maps `shape` (n, 3) to `points` (n, 2; y up), robust to outliers.
 
-    The best affine camera is a linear problem; the scaled rotation nearest to it is its polar factor. Points that lie
-    far off are weighed down and the problem is solved again (Geman and McClure's weights, scale from the median).
+    The best affine camera is a linear problem; the scaled rotation nearest to it is its polar factor. Points of large
+    error get a smaller weight and the problem is solved again (weights of Geman and McClure, scale from the median).
 
     Args:
         rounds: of reweighting.
-        ridge: keeps flat or coincident points solvable, relative to the shape's spread.
+        ridge: relative to the shape's spread; makes flat or coincident points solvable.
     """
     weights = np.ones(len(shape))
     rotation, scale, offset = np.eye(3), 1.0, np.zeros(2)
@@ -51,25 +51,31 @@ def closed_form(shape: Array, points: Array, *, rounds: int = 8, ridge: float = 
     return Pose(rotation, scale, offset, float(sizes[0] / max(sizes[1], 1e-12 * sizes[0], 1e-300)))
 
 
-def turned(rotation: Array, turn: Array) -> Array:
-    """`rotation` followed by a turn about the axis `turn` (3,), whose length is the angle in radians (Rodrigues)."""
-    angle = float(np.linalg.norm(turn))
+def rotated(rotation: Array, vector: Array) -> Array:
+    """`rotation` followed by a rotation about `vector` (3,), whose length is the angle in radians (Rodrigues).
+
+    >>> rotated(np.eye(3), np.array([0, 0, np.pi / 2])).round(6).tolist()
+    [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    """
+    angle = float(np.linalg.norm(vector))
     if angle < 1e-12:
         return rotation
-    x, y, z = turn / angle
+    x, y, z = vector / angle
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     matrix = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    u, _, vt = np.linalg.svd(matrix @ rotation)  # rounding must not build up
+    u, _, vt = np.linalg.svd(matrix @ rotation)  # against accumulated rounding
     return np.asarray(u @ vt, np.float64)
 
 
 def yaw_pitch_roll(rotation: Array) -> tuple[float, float, float]:
-    """Degrees: yaw is positive where the face looks to the picture's right, pitch where it looks up, roll where the
-    head leans counter-clockwise, about the direction that it looks in.
+    """Yaw, pitch and roll in degrees.
+
+    Yaw is positive where the face looks to the picture's right, pitch where it looks up. Roll is about the direction of
+    view of the face, positive counter-clockwise.
     """
     forward = rotation[:, 2]
     yaw, pitch = np.arctan2(forward[0], forward[2]), np.arcsin(np.clip(forward[1], -1, 1))
-    level = np.array([np.cos(yaw), 0.0, -np.sin(yaw)])  # where the face's x axis points without roll
+    level = np.array([np.cos(yaw), 0.0, -np.sin(yaw)])  # the face's x axis without roll
     roll = np.arctan2(rotation[:, 0] @ np.cross(forward, level), rotation[:, 0] @ level)
     return float(np.degrees(yaw)), float(np.degrees(pitch)), float(np.degrees(roll))
 

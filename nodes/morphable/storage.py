@@ -1,11 +1,11 @@
-"""A face model on disk: NAME.safetensors with the arrays, NAME.json beside it with the words.
+"""A face model on disk: NAME.safetensors with the arrays, and a card NAME.json beside it.
 
 Tensors: `mean` (V, 3), `triangles` (T, 3), `identity` and `expression` (K, V, 3) with `*_deviations` (K,),
 `landmarks.SCHEME` (n,), and where present `uv` (V, 2), `parts` (V,), `prior.weights`, `prior.means`,
 `prior.covariances`. Lengths are in outer-eye-corner distances, directions in standard deviations (see `model`).
-A file with `refine` = n levels in its card holds a coarse mesh, subdivided when it is read.
-Directions may be float16. The card (JSON) has `format`, `name`, `identity_names`, `expression_names`, `part_names`, and
-whatever is to be said about the origin: `source`, `license`, `learned_from`, `limits`.
+Directions may be float16. The card has `format`, `name`, `identity_names`, `expression_names`, `part_names`, and the
+origin: `source`, `license`, `learned_from`, `limits`. With `refine` = n in the card the file holds a coarse mesh, which
+is subdivided n times when it is read.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphface import UnreadableFile, UnwritableFile
 from graphface.nodes.morphable.model import Basis, InvalidModel, MorphableModel
@@ -26,14 +27,14 @@ from graphface.nodes.morphable.subdivide import loop
 FORMAT = "graphface-morphable-1"
 
 
-_WORDS = ("format", "name", "identity_names", "expression_names", "part_names")
+_CARD_FIELDS = ("format", "name", "identity_names", "expression_names", "part_names")
 
 
 def load_model(path: Path, *, refine: bool = True) -> MorphableModel:
-    """Read a model written by `save_model`; its mesh subdivided where the card says so.
+    """Read a model written by `save_model`; its mesh is subdivided as the card says.
 
     Args:
-        refine: False leaves the mesh as it is in the file, to be edited and saved again.
+        refine: False keeps the coarse mesh of the file, to be edited and saved again.
 
     Raises:
         UnreadableFile: a file is missing or damaged, or its parts do not agree.
@@ -75,17 +76,7 @@ def save_model(model: MorphableModel, path: Path, *, half: bool = False) -> None
     path = Path(path)
     if path.suffix != ".safetensors":
         raise UnwritableFile(path, "a face model is written as NAME.safetensors (and NAME.json)")
-    small = np.float16 if half else np.float32
-    tensors: dict[str, Any] = {"mean": model.mean, "triangles": model.triangles}
-    for kind, basis in (("identity", model.identity), ("expression", model.expression)):
-        tensors[kind] = basis.directions.astype(small)
-        tensors[f"{kind}_deviations"] = basis.deviations
-    tensors.update({f"landmarks.{scheme}": vertices for scheme, vertices in model.landmarks.items()})
-    tensors.update({k: v for k, v in (("uv", model.uv), ("parts", model.parts)) if v is not None})
-    if model.prior is not None:
-        mixture = model.prior
-        tensors["prior.weights"], tensors["prior.means"] = mixture.weights, mixture.means
-        tensors["prior.covariances"] = mixture.covariances.astype(small)
+    tensors = _tensors(model, np.float16 if half else np.float32)
     card = {
         "format": FORMAT,
         "name": model.name,
@@ -96,14 +87,29 @@ def save_model(model: MorphableModel, path: Path, *, half: bool = False) -> None
     }
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        save_file({name: np.ascontiguousarray(t) for name, t in tensors.items()}, path)
+        save_file(tensors, path)
         path.with_suffix(".json").write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
     except OSError as error:
         raise UnwritableFile(path, error.strerror or str(error)) from error
 
 
+def _tensors(model: MorphableModel, kind_of_float: type[np.floating[Any]]) -> dict[str, NDArray[Any]]:
+    """The arrays of a model by their names in the file; directions and covariances in the given type."""
+    tensors: dict[str, NDArray[Any]] = {"mean": model.mean, "triangles": model.triangles}
+    for kind, basis in (("identity", model.identity), ("expression", model.expression)):
+        tensors[kind] = basis.directions.astype(kind_of_float)
+        tensors[f"{kind}_deviations"] = basis.deviations
+    tensors.update({f"landmarks.{scheme}": vertices for scheme, vertices in model.landmarks.items()})
+    tensors.update({k: v for k, v in (("uv", model.uv), ("parts", model.parts)) if v is not None})
+    if model.prior is not None:
+        mixture = model.prior
+        tensors["prior.weights"], tensors["prior.means"] = mixture.weights, mixture.means
+        tensors["prior.covariances"] = mixture.covariances.astype(kind_of_float)
+    return {name: np.ascontiguousarray(tensor) for name, tensor in tensors.items()}
+
+
 def refined(model: MorphableModel, levels: int) -> MorphableModel:
-    """The same model on a finer, smoother mesh; the old vertices keep their numbers."""
+    """The same model on a mesh that is subdivided `levels` times; the old vertices keep their numbers."""
     matrix, triangles = loop(model.triangles, len(model.mean), levels)
     finer = matrix.toarray().astype(np.float32)
 
@@ -143,5 +149,5 @@ def _assembled(tensors: Mapping[str, Any], card: Mapping[str, Any]) -> Morphable
         parts=tensors.get("parts"),
         part_names=tuple(card.get("part_names", ())),
         prior=prior,
-        card={k: v for k, v in card.items() if k not in _WORDS},
+        card={k: v for k, v in card.items() if k not in _CARD_FIELDS},
     )

@@ -8,7 +8,8 @@ from pydantic import Field
 
 from graphface import UsageError, node
 from graphface.nodes.morphable.builtin import builtin_model
-from graphface.nodes.morphable.fit import CameraChoice, PriorChoice, Settings, fit_together
+from graphface.nodes.morphable.fit import fit_together
+from graphface.nodes.morphable.fit_problem import CameraChoice, PriorChoice, Settings
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.types import Landmarks, Mesh
 

@@ -1,2 +1,2 @@
-"""A mesh drawn into the picture (`rasterize`), and what it says of pixels (`coordinates`) and vertices
+"""A mesh drawn into the picture (`rasterize`), face coordinates of pixels (`coordinates`) and visibility of vertices
 (`visibility`)."""

@@ -1,4 +1,4 @@
-"""The point of the face at every pixel."""
+"""Face coordinates of every pixel."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from graphface.nodes.types import FaceCoordinates, Mesh, Surface
 
 @node("surface.coordinates")
 def coordinates(surface: Surface, mesh: Mesh) -> FaceCoordinates:
-    """The point of the face at every pixel: float32 H x W x 2 in [0, 1], -1 where there is no face.
+    """Face coordinates of every pixel: float32 H x W x 2 in [0, 1], -1 where there is no face.
 
     Raises:
         UsageError: the mesh has no texture coordinates.

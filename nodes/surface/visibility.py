@@ -1,4 +1,4 @@
-"""Which vertices the camera sees."""
+"""Visibility of the vertices of a mesh."""
 
 from __future__ import annotations
 
@@ -19,14 +19,15 @@ def visibility(
     facing: Annotated[float, Field(gt=0, lt=1)] = 0.2,
     depth_tolerance: Annotated[float, Field(gt=0, le=1)] = 0.05,
 ) -> Visibility:
-    """How far the camera sees each vertex: inside the frame, turned towards the viewer, nothing in front of it.
+    """How visible each vertex is: inside the frame, facing the camera, not occluded.
 
     Args:
         surface: of the same mesh.
-        facing: cosine between normal and view from which a vertex is fully seen; turned away, it is not.
-        depth_tolerance: how far behind the drawn surface a vertex may lie, in eye distances; at twice it is hidden.
+        facing: cosine between normal and view direction from which a vertex is fully visible; at 0 it is hidden.
+        depth_tolerance: depth behind the drawn surface up to which a vertex is visible, in inter-ocular distances; at
+            twice that it is hidden.
 
     Returns:
-        float32 (V,), 0 hidden to 1 seen.
+        float32 (V,), from 0 (hidden) to 1 (visible).
     """
     return vertex_visibility(surface, mesh, facing=facing, depth_tolerance=depth_tolerance)

@@ -18,7 +18,8 @@ from graphface.nodes.geometry.facemesh import facemesh
 from graphface.nodes.geometry.morphable import morphable
 from graphface.nodes.landmark_schemes import UnusableLandmarks
 from graphface.nodes.morphable.builtin import builtin_model
-from graphface.nodes.morphable.fit import Settings, fit
+from graphface.nodes.morphable.fit import fit
+from graphface.nodes.morphable.fit_problem import Settings
 from graphface.nodes.morphable.model import no_basis
 from graphface.nodes.morphable.pose import Pose, closed_form
 from graphface.nodes.morphable.prior import Mixture, prepare, quadratic

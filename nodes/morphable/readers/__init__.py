@@ -1,7 +1,7 @@
-"""Face models as their makers distribute them, read into one container.
+"""Readers of face models in the files of their makers.
 
 ICT-FaceKit (a folder of OBJ files, or packed), the Surrey face model (eos's binary form), FLAME and the Basel face
-model (2009 and 2017). FLAME and Basel need a licence from their makers; nothing of them is here.
+model (2009 and 2017). FLAME and Basel need a licence from their makers; none of their data is here.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def read_model(source: Path, kind: str = "", landmarks: Path | None = None) -> M
     Args:
         source: file or folder.
         kind: one of `KINDS`; guessed by default.
-        landmarks: "ibug number = vertex" a line, where the source does not say.
+        landmarks: a file with lines "ibug number = vertex", where the source has no landmarks.
 
     Raises:
         UnreadableFile: it is not such a model.
@@ -43,7 +43,7 @@ def read_model(source: Path, kind: str = "", landmarks: Path | None = None) -> M
 
 
 def guess_kind(source: Path) -> str:
-    """The kind of model that a file or folder looks like.
+    """The kind of a file or folder, by its suffix or content.
 
     Raises:
         UsageError: it looks like none.
@@ -62,4 +62,4 @@ def guess_kind(source: Path) -> str:
         return "flame"
     elif source.suffix in (".h5", ".hdf5", ".mat"):
         return "basel"
-    raise UsageError(f"{source}: does not look like a known face model; say which with --kind ({', '.join(KINDS)})")
+    raise UsageError(f"{source}: does not look like a known face model; choose one with --kind ({', '.join(KINDS)})")

@@ -1,4 +1,4 @@
-"""What all readers end with: cut out the face, close its holes, bring it into the container's frame and unit."""
+"""The last step of all readers: cut out the face, close its holes, convert it to the container's frame and unit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from graphface import UnreadableFile
 from graphface.nodes.morphable.model import EYE_CORNERS, Basis, InvalidModel, MorphableModel
 from graphface.nodes.types import FloatArray
 
-_LEAST_LOOP = 3
+_MIN_LOOP = 3
+"""Least number of edges of a hole."""
 
 
 def assemble(
@@ -43,45 +44,45 @@ def assemble(
     Raises:
         UnreadableFile: the parts do not agree, or the outer eye corners are not among the landmarks.
     """
-    corners = [int(landmarks68[k]) for k in EYE_CORNERS["ibug68"]]
-    if min(corners) < 0:
+    if min(landmarks68[list(EYE_CORNERS["ibug68"])]) < 0:
         raise UnreadableFile(source, "its landmarks lack the outer eye corners (ibug 37 and 46), which give the unit")
-    basis = np.concatenate([identity, expression]).astype(np.float32)
     used = np.union1d(triangles.ravel(), landmarks68[landmarks68 >= 0])
     number = np.full(len(mean), -1, np.int64)
     number[used] = np.arange(len(used))
-    kept = number[triangles]
-    corners = [int(number[c]) for c in corners]
-    places, moves = np.asarray(mean, np.float64)[used], basis[:, used]
-    loops = boundary_loops(kept)
-    kept, fans = closed(kept, loops[1:], len(used))
-    unit = float(np.linalg.norm(places[corners[0]] - places[corners[1]]))
-    if not unit > 0:
-        raise UnreadableFile(source, "its outer eye corners coincide")
-    of_source = np.where(landmarks68 >= 0, number[landmarks68], -1).astype(np.int32)
-    inner = of_source[17:][of_source[17:] >= 0]
-    middle = places[inner].mean(axis=0)
-    places = _with_middles((places - middle) / unit, fans)
-    moves = _with_middles(moves / unit, fans, axis=1).astype(np.float32)
+    kept, holes = closed(number[triangles], boundary_loops(number[triangles])[1:], len(used))
+    landmarks = np.where(landmarks68 >= 0, number[landmarks68], -1).astype(np.int32)
+    vertices, unit = _in_frame(source, np.asarray(mean, np.float64)[used], landmarks)
+    basis = np.concatenate([identity, expression]).astype(np.float32)
+    directions = _with_centers(basis[:, used] / unit, holes, axis=1).astype(np.float32)
     split = len(identity)
     names = tuple(expression_names) or tuple(f"expression {k}" for k in range(len(expression)))
     try:
         return MorphableModel(
             name=name,
-            mean=places.astype(np.float32),
+            mean=_with_centers(vertices, holes).astype(np.float32),
             triangles=kept.astype(np.int32),
-            identity=_basis(moves[:split], tuple(f"identity {k}" for k in range(split)), unit),
-            expression=_basis(moves[split:], names, unit),
-            landmarks={"ibug68": of_source},
-            uv=None if uv is None else _with_middles(np.asarray(uv, np.float32)[used], fans),
-            parts=None
-            if parts is None
-            else np.concatenate([parts[used], [parts[used][f[0]] for f in fans]]).astype(np.int32),
+            identity=_basis(directions[:split], tuple(f"identity {k}" for k in range(split)), unit),
+            expression=_basis(directions[split:], names, unit),
+            landmarks={"ibug68": landmarks},
+            uv=None if uv is None else _with_centers(np.asarray(uv, np.float32)[used], holes),
+            parts=None if parts is None else _parts(parts[used], holes),
             part_names=tuple(part_names),
             card=dict(card),
         )
     except InvalidModel as error:
         raise UnreadableFile(source, error.reason) from error
+
+
+def _in_frame(
+    source: Path, vertices: NDArray[np.float64], landmarks: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], float]:
+    """Vertices in the container's frame and unit, and that unit in the source's."""
+    first, second = (vertices[landmarks[k]] for k in EYE_CORNERS["ibug68"])
+    unit = float(np.linalg.norm(first - second))
+    if not unit > 0:
+        raise UnreadableFile(source, "its outer eye corners coincide")
+    inner = landmarks[17:][landmarks[17:] >= 0]
+    return (vertices - vertices[inner].mean(axis=0)) / unit, unit
 
 
 def with_facemesh_points(model: MorphableModel) -> MorphableModel:
@@ -92,7 +93,7 @@ def with_facemesh_points(model: MorphableModel) -> MorphableModel:
 
 
 def boundary_loops(triangles: NDArray[np.integer[Any]]) -> list[list[int]]:
-    """The closed lines of edges that have one triangle only, longest first, in the triangles' direction."""
+    """Closed lines of edges that belong to a single triangle, longest first, in the triangles' direction."""
     directed = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     pairs = {(int(a), int(b)) for a, b in directed}
     following = defaultdict(list)
@@ -110,7 +111,7 @@ def boundary_loops(triangles: NDArray[np.integer[Any]]) -> list[list[int]]:
             if not nexts:
                 del following[here]
             here = step
-        if here == start and len(loop) >= _LEAST_LOOP:
+        if here == start and len(loop) >= _MIN_LOOP:
             loops.append(loop)
     return sorted(loops, key=len, reverse=True)
 
@@ -118,21 +119,26 @@ def boundary_loops(triangles: NDArray[np.integer[Any]]) -> list[list[int]]:
 def closed(
     triangles: NDArray[np.integer[Any]], loops: list[list[int]], vertices: int
 ) -> tuple[NDArray[np.int64], list[list[int]]]:
-    """Close each loop by a fan about a new vertex (numbered from `vertices`); the triangles, and the loops closed."""
+    """Each loop closed by a fan around a new vertex, numbered from `vertices`: the triangles, and the loops."""
     fans = []
     for number, loop in enumerate(loops):
-        middle = vertices + number
-        fans += [(b, a, middle) for a, b in zip(loop, loop[1:] + loop[:1], strict=True)]
+        center = vertices + number
+        fans += [(b, a, center) for a, b in zip(loop, loop[1:] + loop[:1], strict=True)]
     extra = np.array(fans, np.int64).reshape(-1, 3)
     return np.concatenate([triangles.astype(np.int64), extra]), loops
 
 
-def _with_middles(values: NDArray[Any], loops: list[list[int]], axis: int = 0) -> NDArray[Any]:
-    """The values of the vertices, and of each loop's middle: linear, so it serves mean and directions alike."""
+def _with_centers(values: NDArray[Any], loops: list[list[int]], axis: int = 0) -> NDArray[Any]:
+    """The values of the vertices, and the mean along each loop: linear, so it serves mean and directions alike."""
     if not loops:
         return values
-    middles = np.stack([values.take(loop, axis=axis).mean(axis=axis) for loop in loops], axis=axis)
-    return np.concatenate([values, middles], axis=axis)
+    centers = np.stack([values.take(loop, axis=axis).mean(axis=axis) for loop in loops], axis=axis)
+    return np.concatenate([values, centers], axis=axis)
+
+
+def _parts(parts: NDArray[np.int32], loops: list[list[int]]) -> NDArray[np.int32]:
+    """The part of each vertex; the center of a loop has that of the loop's first vertex."""
+    return np.concatenate([parts, [parts[loop[0]] for loop in loops]]).astype(np.int32)
 
 
 def _basis(directions: FloatArray, names: tuple[str, ...], unit: float) -> Basis:

@@ -36,14 +36,14 @@ _NAMED = {
     "center.lips.upper.inner": 62,
     "center.lips.lower.inner": 66,
 }
-"""Names in the 2017 model's list of landmarks, and the iBUG points (from 0) that they are."""
+"""Names in the 2017 model's list of landmarks, and their iBUG points (from 0)."""
 
 
 def read_basel(source: Path, landmarks: Path | None = None) -> MorphableModel:
     """The model of 2017 (.h5) or of 2009 (.mat).
 
     Args:
-        landmarks: see `landmark_file`; needed for 2009, which lists none, and better than the few of 2017.
+        landmarks: see `landmark_file`. The model of 2009 has none of its own, that of 2017 only a few.
 
     Raises:
         UnreadableFile: it is no such file.
@@ -120,7 +120,7 @@ def _scaled(basis: Any, deviations: NDArray[Any]) -> NDArray[np.float64]:
 
 
 def _listed_landmarks(path: Path, listed: Any, shape: NDArray[np.float64]) -> NDArray[np.int32]:
-    """The landmarks that the file names, each at the vertex nearest to its coordinates."""
+    """The landmarks in the file, each at the vertex nearest to its coordinates."""
     from scipy.spatial import cKDTree
 
     text = listed.decode("utf-8") if isinstance(listed, bytes) else str(listed)

@@ -1,10 +1,9 @@
 """FLAME (Li et al., Learning a model of facial shape and expression from 4D scans, 2017). Needs a licence.
 
-The makers distribute pickled dictionaries. Unpickling runs whatever a file says, so only arrays are let through: NumPy,
-SciPy's sparse matrices, and chumpy's wrapper read as the array in it.
-`v_template` (V, 3), `shapedirs` (V, 3, 400: 300
-identity, then expression), `f` (T, 3), `weights` (V, joints), `J_regressor` (joints, V). Skinning is not linear;
-opening the jaw, its greatest part, is kept as one more expression, linearized about the closed mouth.
+The makers distribute pickled dictionaries: `v_template` (V, 3), `shapedirs` (V, 3, 400: 300 identity, then expression),
+`f` (T, 3), `weights` (V, joints), `J_regressor` (joints, V). Unpickling can run any code, so only arrays are allowed:
+NumPy's, SciPy's sparse matrices, and the array in chumpy's wrapper. Skinning is not linear; its largest part, the
+opening of the jaw, becomes one more expression, linearized about the closed mouth.
 """
 
 from __future__ import annotations
@@ -52,7 +51,7 @@ _ALLOWED = {
 
 
 def read_flame(source: Path, landmarks: Path | None = None) -> MorphableModel:
-    """FLAME's .pkl; the 51 inner landmarks come from `flame_static_embedding.pkl` beside it, or from a file.
+    """FLAME's .pkl; the 51 inner landmarks are read from `flame_static_embedding.pkl` beside it, or from a file.
 
     Raises:
         UnreadableFile: not such a pickle, or one that holds more than arrays.
@@ -90,7 +89,7 @@ def read_flame(source: Path, landmarks: Path | None = None) -> MorphableModel:
 
 
 def _jaw_opening(data: dict[str, Any], mean: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Displacement of every vertex as the jaw turns about the x axis through its joint."""
+    """Displacement of every vertex by a rotation of the jaw about the x axis through its joint; None without joints."""
     weights, regressor = data.get("weights"), data.get("J_regressor")
     if weights is None or regressor is None or np.shape(weights)[1] <= _JAW:
         return None
@@ -129,7 +128,7 @@ class _ArraysOnly(pickle.Unpickler):
 
 
 class _Chumpy:
-    """Stands for chumpy's array; its state has the numbers under "x"."""
+    """In place of chumpy's array, whose state has the numbers under "x"."""
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.x = state.get("x")

@@ -2,8 +2,8 @@
 
 Either the makers' folder, with `generic_neutral_mesh.obj`, `identityNNN.obj`, one OBJ an expression and
 `vertex_indices.json`, or the same packed as NumPy arrays. Of the full head only the face is read (the first 6560
-polygons, "narrow face" in its README): ears, neck, mouth cavity, teeth and eyes are separate parts; eyes and mouth are
-closed flat.
+polygons, "narrow face" in its README); ears, neck, mouth cavity, teeth and eyes are separate parts. The holes of eyes
+and mouth are closed.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from graphface import UnreadableFile
 from graphface.nodes.morphable.model import MorphableModel
 from graphface.nodes.morphable.readers.assemble import assemble, with_facemesh_points
+from graphface.nodes.morphable.readers.wavefront import read_obj
 
 _NARROW_FACE = 6560
 """Polygons of the narrow face, first in the list (ICT-FaceKit's README)."""
@@ -34,7 +35,7 @@ _LANDMARKS = (
 
 
 _DEVIATION = 0.3
-"""Blendshape weights run from 0 to 1 and have no statistics; one standard deviation is taken to be this."""
+"""Assumed standard deviation of blendshape weights, which range from 0 to 1 and come without statistics."""
 
 
 _CARD = {"license": "MIT", "source": "ICT-FaceKit, USC Institute for Creative Technologies"}
@@ -98,7 +99,7 @@ def _from_folder(folder: Path) -> _Head:
     neutral = next(folder.rglob("generic_neutral_mesh.obj"), None)
     if neutral is None:
         raise UnreadableFile(folder, "holds no generic_neutral_mesh.obj; give the folder FaceXModel of ICT-FaceKit")
-    mean, uv, polygons = _read_obj(neutral)
+    mean, uv, polygons = read_obj(neutral)
     others = sorted(path for path in neutral.parent.glob("*.obj") if path != neutral)
     identities = [path for path in others if path.stem.startswith("identity")]
     expressions = [path for path in others if not path.stem.startswith("identity")]
@@ -133,35 +134,11 @@ def _landmarks_beside(neutral: Path, vertices: int) -> NDArray[np.int32]:
 def _differences(paths: list[Path], mean: NDArray[np.float32]) -> NDArray[np.float32]:
     shapes = []
     for path in paths:
-        shape = _read_obj(path)[0]
+        shape = read_obj(path)[0]
         if shape.shape != mean.shape:
             raise UnreadableFile(path, f"has {len(shape)} vertices, the neutral mesh has {len(mean)}")
         shapes.append(shape - mean)
     return np.stack(shapes) if shapes else np.zeros((0, *mean.shape), np.float32)
-
-
-def _read_obj(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32] | None, NDArray[np.int64]]:
-    """Vertices (V, 3), texture coordinates (V, 2) or None, and polygons (F, 4); a triangle repeats its last."""
-    vertices, texture, polygons, of_vertex = [], [], [], {}
-    try:
-        with path.open(encoding="utf-8", errors="replace") as lines:
-            for line in lines:
-                word, _, rest = line.partition(" ")
-                if word == "v":
-                    vertices.append([float(x) for x in rest.split()[:3]])
-                elif word == "vt":
-                    texture.append([float(x) for x in rest.split()[:2]])
-                elif word == "f":
-                    corners = [corner.split("/") for corner in rest.split()[:4]]
-                    polygon = [int(corner[0]) - 1 for corner in corners]
-                    polygons.append(polygon + polygon[-1:] * (4 - len(polygon)))
-                    of_vertex.update({int(c[0]) - 1: int(c[1]) - 1 for c in corners if len(c) > 1 and c[1]})
-        uv = None
-        if texture and len(of_vertex) == len(vertices):
-            uv = np.asarray(texture, np.float32)[[of_vertex[v] for v in range(len(vertices))]]
-        return np.asarray(vertices, np.float32).reshape(-1, 3), uv, np.asarray(polygons, np.int64).reshape(-1, 4)
-    except (OSError, ValueError, IndexError) as error:
-        raise UnreadableFile(path, f"not a Wavefront OBJ: {error}") from error
 
 
 def _fan(polygons: NDArray[np.int64]) -> NDArray[np.int64]:

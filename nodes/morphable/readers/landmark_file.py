@@ -1,4 +1,4 @@
-"""Which vertex is which of the 68 iBUG points, from a text file."""
+"""Vertices of the 68 iBUG points from a text file."""
 
 from __future__ import annotations
 

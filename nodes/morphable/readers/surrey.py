@@ -20,11 +20,11 @@ from graphface.nodes.morphable.readers.assemble import assemble, with_facemesh_p
 from graphface.nodes.morphable.readers.landmark_file import read_landmark_numbers
 
 _DEVIATION = 0.3
-"""Blendshape weights run from 0 to 1 and have no statistics; one standard deviation is taken to be this."""
+"""Assumed standard deviation of blendshape weights, which range from 0 to 1 and come without statistics."""
 
 
-_MOST = 1 << 28
-"""Numbers in a matrix of a plausible file."""
+_MAX_LENGTH = 1 << 28
+"""Largest plausible number of values in a matrix."""
 
 
 def read_surrey(source: Path, landmarks: Path | None = None) -> MorphableModel:
@@ -100,7 +100,7 @@ def _with_jaw(points: NDArray[np.int32], folder: Path) -> NDArray[np.int32]:
 
 
 class _Reader:
-    """Reads one file of cereal's portable-less binary form from its beginning."""
+    """Reads values from a file in cereal's binary form, from its beginning on."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -133,6 +133,6 @@ class _Reader:
         return taken
 
     def _plausible(self, count: int) -> int:
-        if not 0 <= count <= _MOST:
+        if not 0 <= count <= _MAX_LENGTH:
             raise UnreadableFile(self._path, f"not a face model of eos: a length of {count} at byte {self._place}")
         return count

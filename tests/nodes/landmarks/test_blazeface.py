@@ -1,4 +1,4 @@
-"""The detector: boxes where faces are, merged, and mapped to the picture's own pixels."""
+"""The detector: boxes of faces, merged, in the picture's own pixels."""
 
 import numpy as np
 import pytest
@@ -10,12 +10,12 @@ from graphface.nodes.landmarks.blazeface import _MODELS, Face, _anchors, _letter
 
 class TestAnchors:
     @pytest.mark.parametrize(("model", "count"), [("near", 896), ("far", 2304)])
-    def test_as_many_as_the_network_answers(self, model, count):
+    def test_one_for_each_detection(self, model, count):
         """One anchor for each row of the network's output."""
         assert _anchors(_MODELS[model].grids).shape == (count, 2)
 
-    def test_cell_centres(self):
-        """The first cell of a 16 x 16 grid is centred at 1/32, twice; cells follow row by row."""
+    def test_cell_centers(self):
+        """The first cell of a 16 x 16 grid has its center at 1/32, twice; cells follow row by row."""
         anchors = _anchors(_MODELS["near"].grids)
         np.testing.assert_allclose(anchors[:3], [[1 / 32, 1 / 32], [1 / 32, 1 / 32], [3 / 32, 1 / 32]])
         np.testing.assert_allclose(anchors[512], [1 / 16, 1 / 16])
@@ -23,8 +23,8 @@ class TestAnchors:
 
 class TestLetterbox:
     @given(st.integers(1, 900), st.integers(1, 900))
-    def test_corners_come_back(self, width, height):
-        """The picture's outer corners, found in the square, map back onto themselves."""
+    def test_corners(self, width, height):
+        """The picture's outer corners in the square map to its corners."""
         square, matrix = _letterbox(np.ones((height, width, 3), np.float32), 256)
         rows, columns = np.flatnonzero(square.any(axis=(1, 2))), np.flatnonzero(square.any(axis=(0, 2)))
         corners = np.array([[columns[0], rows[0]], [columns[-1] + 1, rows[-1] + 1]], np.float32)
@@ -33,8 +33,8 @@ class TestLetterbox:
 
 
 class TestMerge:
-    def test_overlapping_answers_become_their_weighted_mean(self):
-        """Two boxes of one face give one face, between them by their scores."""
+    def test_overlapping_detections(self):
+        """Two boxes of one face give their mean, weighted by the scores."""
         boxes = np.array([[0, 0, 10, 10], [2, 0, 12, 10], [50, 50, 60, 60]], np.float32)
         faces = _merge(boxes, np.zeros((3, 6, 2), np.float32), np.array([0.9, 0.6, 0.7], np.float32))
         assert [round(f.score, 2) for f in faces] == [0.9, 0.7]
@@ -51,11 +51,11 @@ class TestMerge:
         assert all(np.isfinite(f.box).all() for f in faces)
 
 
-class TestMoved:
+class TestTransformed:
     def test_quarter_turn(self):
-        """A moved box is the upright box about the moved corners."""
+        """The box is the bounding box of the rotated corners."""
         face = Face(np.array([0, 0, 4, 2], np.float32), np.ones((6, 2), np.float32), 1.0)
-        turned = face.moved(np.array([[0, -1, 0], [1, 0, 0]], np.float32))
+        turned = face.transformed(np.array([[0, -1, 0], [1, 0, 0]], np.float32))
         np.testing.assert_allclose(turned.box, [-2, 0, 0, 4])
         np.testing.assert_allclose(turned.points[0], [-1, 1])
 

@@ -1,4 +1,4 @@
-"""The ladder of views: each maps back to the photo, and it ends as soon as it may."""
+"""The search over views: each maps back to the photo, and the search ends early."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ class TestViews:
         y, x = data.draw(st.integers(0, height - 1)), data.draw(st.integers(0, width - 1))
         pixels = np.zeros((height, width, 3), np.float32)
         pixels[y, x] = 1
-        for views in module._ladder(Image(pixels), thorough=False):
+        for views in module._views(Image(pixels), thorough=False):
             for view in views:
                 rows, columns = np.nonzero(view.pixels[..., 0] > 0.5)
                 for row, column in zip(rows, columns, strict=True):
@@ -33,7 +33,7 @@ class TestViews:
 
     def test_large_photos_are_searched_small(self):
         """No view is larger than the reduced copy with its border, and the copy's corner maps to the photo's."""
-        views = next(module._ladder(Image(np.zeros((10, 4000, 3), np.float32)), thorough=False))
+        views = next(module._views(Image(np.zeros((10, 4000, 3), np.float32)), thorough=False))
         assert max(views[0].pixels.shape) == module.LONG_SIDE
         np.testing.assert_allclose(
             views[0].matrix[:, :2] @ (-0.5, -0.5) + views[0].matrix[:, 2], (-0.5, -0.5), atol=1e-4
@@ -57,31 +57,31 @@ class TestSearch:
 
     @pytest.fixture
     def detections(self, monkeypatch) -> list[list[Face]]:
-        """What the detector answers, call by call; nothing once the list is used up."""
+        """The results of the detector, call by call; none after the end of the list."""
         answers: list[list[Face]] = []
         monkeypatch.setattr(module, "detect", lambda *_, **__: answers.pop(0) if answers else [])
         return answers
 
-    def test_a_sure_face_ends_it(self, detections):
-        """A confirmed face with a good score needs one look."""
+    def test_a_certain_face_ends_it(self, detections):
+        """After a confirmed face with a good score no other view is tried."""
         detections.extend([[face(30, 30, 20, SURE + 0.1)], []])
         found, tried = search(self.PHOTO, lambda f: f.score, min_score=0.5)
         assert (len(found), len(tried)) == (1, 1)
 
     def test_a_weak_face_is_compared(self, detections):
-        """A weak face is held against what shows with a border, and the better one wins."""
+        """A weak face is compared with the view with a border, and the better one is taken."""
         detections.extend([[face(30, 30, 20, 0.55)], [], [face(64, 64, 60, 0.9)], []])
         found, tried = search(self.PHOTO, lambda f: round(f.score, 2), min_score=0.5)
         assert (found, len(tried)) == ([0.9], 2)
 
-    def test_a_weak_face_alone_stands(self, detections):
-        """A weak face that nothing contradicts is taken."""
+    def test_a_weak_face_alone(self, detections):
+        """A weak face is taken where no other is found."""
         detections.extend([[face(30, 30, 20, 0.55)]])
         found, _ = search(self.PHOTO, lambda f: round(f.score, 2), min_score=0.5)
         assert found == [0.55]
 
     def test_unconfirmed_faces_do_not_count(self, detections):
-        """False detections send the search on to the end of the ladder."""
+        """After false detections alone every view is tried."""
         detections.extend([[face(30, 30, 20, 0.9)]])
         found, tried = search(self.PHOTO, lambda f: None, min_score=0.5)
         assert found == []

@@ -1,12 +1,12 @@
-"""Learn a linear face model from FaceMesh points on photographs: how the built-in model was made.
+"""Learning a linear face model from FaceMesh points on photographs, as the built-in model was.
 
-1. Every face is freed of position, size and turn (Procrustes), and joined by its mirror image, so that the model is
-   symmetric.
-2. What varies among photographs of one person, about that person's mean, is expression: its principal components.
-3. What is left of one photograph each of many people, once expression is projected out, is identity.
-4. The coefficients of all training faces give the mixture prior.
+1. Every face is aligned to the mean by position, size and rotation (Procrustes). Its mirror image is added, so that the
+   model is symmetric.
+2. Expression: principal components of the photographs of one person about that person's mean.
+3. Identity: principal components of one photograph each of many people, after expression is projected out.
+4. The prior: a Gaussian mixture of the coefficients of all training faces.
 
-The network reports depth as if seen from infinitely far away, so no camera enters.
+The network's depth is that of a camera at infinity, so no camera is estimated.
 """
 
 from __future__ import annotations
@@ -19,29 +19,29 @@ from numpy.typing import NDArray
 
 from graphface import UsageError
 from graphface.nodes.landmark_schemes import IBUG68_IN_FACEMESH468
+from graphface.nodes.learning.coefficient_prior import fit_mixture
 from graphface.nodes.morphable.align import aligned, procrustes_mean
 from graphface.nodes.morphable.model import Basis, MorphableModel, no_basis
-from graphface.nodes.morphable.prior import fit_mixture
 from graphface.nodes.morphable.topology import Topology, cylinder, facemesh_topology
 
 Array = NDArray[np.float64]
 
 
-_STEEPEST = np.cos(np.radians(30))
-"""Faces turned more than this are left out: the network's points shift with the turn."""
+_MIN_FACING = np.cos(np.radians(30))
+"""Faces rotated by more than this are left out: the network's points shift with the rotation."""
 
 
-_LEAST_OF_A_PERSON = 3
-"""Photographs of one person from which their own mean is worth taking."""
+_MIN_PER_PERSON = 3
+"""Least number of photographs of a person for a mean of that person."""
 
 
 @dataclass(frozen=True)
-class Lesson:
-    """What learning found out about itself.
+class Figures:
+    """Figures of one training.
 
-    `faces`, `people` and `photos_of_people` used; `left` the root mean square distance that the model leaves of a
-    training face, and `left_unseen` of portraits that a model learned from the others has not seen (5-fold), both in
-    per cent of the distance between the outer eye corners.
+    `faces`, `people` and `photos_of_people`: numbers used. `left`: root mean square distance between a training face
+    and its best approximation; `left_unseen`: the same for portraits outside the training set (5-fold
+    cross-validation). Both are in per cent of the distance between the outer eye corners.
     """
 
     faces: int
@@ -54,13 +54,13 @@ class Lesson:
 
 def learn_model(
     name: str, faces: Array, of_people: Array, people: Sequence[str], *, identity: int, expression: int
-) -> tuple[MorphableModel, Lesson]:
+) -> tuple[MorphableModel, Figures]:
     """A model on the 468 points and the triangles of `facemesh_topology`.
 
     Args:
-        faces: (F, 468, 3), one photograph a person; pixels, y up.
+        faces: (F, 468, 3), one photograph per person; pixels, y up.
         of_people: (P, 468, 3), several photographs of each of some people; may be empty.
-        people: whose, P names.
+        people: P names, of the person in each of these.
         identity, expression: numbers of components.
 
     Raises:
@@ -73,13 +73,13 @@ def learn_model(
     photos, names = _frontal_of_people(photos, names, mean)
     if len(portraits) < 2 * identity:
         raise UsageError(
-            f"{len(portraits)} usable portraits (turned less than 30 degrees) cannot teach {identity} identity "
+            f"{len(portraits)} usable portraits (rotated less than 30 degrees) are too few for {identity} identity "
             f"components; give at least {2 * identity}, or ask for fewer with --identity"
         )
     within = _within_people(photos, names, topology)
     if len(within) < 2 * expression:
         raise UsageError(
-            f"{len(within) // 2} photographs of people with at least {_LEAST_OF_A_PERSON} each cannot teach "
+            f"{len(within) // 2} photographs of people with at least {_MIN_PER_PERSON} each are too few for "
             f"{expression} expression components; give more with --people, or ask for none with --expression 0"
         )
     learned = _components(portraits, within, mean, topology, identity, expression)
@@ -99,7 +99,7 @@ def learn_model(
         uv=cylinder(topology.mean).astype(np.float32),
         prior=prior,
     )
-    lesson = Lesson(
+    figures = Figures(
         faces=len(portraits),
         people=len(set(names)),
         photos_of_people=len(photos),
@@ -107,7 +107,7 @@ def learn_model(
         left_unseen=_left_unseen(portraits, within, mean, topology, identity, expression),
         components=len(prior.weights),
     )
-    return model, lesson
+    return model, figures
 
 
 @dataclass(frozen=True)
@@ -123,8 +123,8 @@ def _components(
     shape = mean.shape
     expressions, deviations = _principal(within.reshape(len(within), mean.size), expression)
     both = np.concatenate([portraits, _mirrored(portraits, topology)])
-    apart = (both - mean).reshape(len(both), -1)
-    neutral = apart - apart @ expressions.T @ expressions
+    differences = (both - mean).reshape(len(both), -1)
+    neutral = differences - differences @ expressions.T @ expressions
     offset = neutral.mean(axis=0)
     identities, spreads = _principal(neutral - offset, identity)
     directions = np.concatenate([identities * spreads[:, None], expressions * deviations[:, None]])
@@ -140,30 +140,31 @@ def _principal(rows: Array, count: int) -> tuple[Array, Array]:
 
 
 def _within_people(photos: Array, names: Sequence[str], topology: Topology) -> Array:
-    """Photographs minus their person's mean, and mirrored; scaled for the mean having been taken from them."""
-    labels, apart = np.asarray(names), []
+    """Photographs minus their person's mean, and their mirror images; scaled by sqrt(n / (n - 1)), since the mean is
+    estimated from them."""
+    labels, differences = np.asarray(names), []
     for person in np.unique(labels):
         own = photos[labels == person]
-        if len(own) >= _LEAST_OF_A_PERSON:
-            apart.append((own - own.mean(axis=0)) * np.sqrt(len(own) / (len(own) - 1)))
-    if not apart:
+        if len(own) >= _MIN_PER_PERSON:
+            differences.append((own - own.mean(axis=0)) * np.sqrt(len(own) / (len(own) - 1)))
+    if not differences:
         return np.zeros((0, len(topology.mean), 3))
-    rows = np.concatenate(apart)
+    rows = np.concatenate(differences)
     return np.concatenate([rows, _mirrored(rows, topology)])
 
 
 def _frontal(shapes: Array, mean: Array) -> Array:
-    turned_back, turns = aligned(shapes, mean)
-    frontal: Array = turned_back[turns[:, 2, 2] > _STEEPEST]
+    upright, rotations = aligned(shapes, mean)
+    frontal: Array = upright[rotations[:, 2, 2] > _MIN_FACING]
     return frontal
 
 
 def _frontal_of_people(photos: Array, names: list[str], mean: Array) -> tuple[Array, list[str]]:
     if len(photos) == 0:
         return photos.reshape(0, *mean.shape), []
-    turned_back, turns = aligned(photos, mean)
-    keep = turns[:, 2, 2] > _STEEPEST
-    return turned_back[keep], [name for name, kept in zip(names, keep, strict=True) if kept]
+    upright, rotations = aligned(photos, mean)
+    keep = rotations[:, 2, 2] > _MIN_FACING
+    return upright[keep], [name for name, kept in zip(names, keep, strict=True) if kept]
 
 
 def _mirrored(shapes: Array, topology: Topology) -> Array:
@@ -173,8 +174,8 @@ def _mirrored(shapes: Array, topology: Topology) -> Array:
 
 def _coefficients(shapes: Array, mean: Array, directions: Array) -> Array:
     """Least-squares coefficients (F, K)."""
-    apart = (shapes - mean).reshape(len(shapes), -1)
-    return np.asarray(np.linalg.lstsq(directions.T, apart.T, rcond=None)[0].T, np.float64)
+    differences = (shapes - mean).reshape(len(shapes), -1)
+    return np.asarray(np.linalg.lstsq(directions.T, differences.T, rcond=None)[0].T, np.float64)
 
 
 def _left(shapes: Array, mean: Array, directions: Array) -> float:

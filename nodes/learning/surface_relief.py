@@ -1,17 +1,16 @@
-"""Correct a model's relief by faces whose normals are known.
+"""A correction of a model's relief by faces with known normals.
 
-A landmark network's depth has habits: chins, lips and eye sockets too flat, cheeks and noses too steep. What is common
-to all faces can be measured once, as the mean difference between true and fitted normals at each vertex, and undone:
-the mean shape is moved until it has that difference. Depth and shadows then agree with the normals, which a mere
-correction of normals could not promise.
+A landmark network's depth has systematic errors: chins, lips and eye sockets are too flat, cheeks and noses too steep.
+The mean difference between true and fitted normals is measured at each vertex, and the mean shape is displaced to have
+the true normals. A correction of the shape, unlike one of the normals, keeps depth and shadows consistent with them.
 
-Moving a surface by h(x) along its normal n turns the normal by minus the gradient of h, so that
+Displacing a surface by h(x) along its normal n rotates the normal by minus the gradient of h, so that
 
     min_h  sum_v w_v |-grad h(v) - d(v)|^2  +  smoothness |Laplace h|^2  +  ridge |h|^2
 
-is a linear problem, in as many unknowns as the coarse model has vertices; w_v is the number of faces that show v. The
-vertices themselves are moved in depth only, by h over n_z: the surface comes to lie in the same place, and the points
-that a model is fitted to stay where they are in a frontal picture. (Moved along their normals they leave twice the
+is a linear problem with one unknown per vertex of the coarse model; d is the difference of normals and w_v the share of
+faces that show v. The vertices themselves are displaced in depth only, by h / n_z: that gives the same surface, and in
+a frontal picture the points that a model is fitted to stay in place. (Displacement along the normals leaves twice the
 residual on portraits, and normals of unseen heads are 11.6 instead of 11.3 degrees off.)
 """
 
@@ -34,19 +33,19 @@ from graphface.nodes.types import FloatArray, Mask, Mesh, Normals, Surface
 Array = NDArray[np.float64]
 
 
-_STEEP = 0.7
-"""Where the surface turns away from the front by more than this cosine, depth moves it by less than was wanted."""
+_MIN_FACING = 0.7
+"""Least n_z that h is divided by: where the surface is steeper, the displacement is limited."""
 
 
-_LEAST_PIXELS = 2.0
-"""Pixels of a face that a vertex must have for the face to count there."""
+_MIN_PIXELS = 2.0
+"""Least number of pixels at a vertex, summed barycentric weights, for a face to count there."""
 
 
 @dataclass(frozen=True)
 class Difference:
     """True minus fitted normals of one face at each vertex of its mesh, in the face's own frame.
 
-    `mean` (V, 3); `seen` (V,), whether the face says anything there.
+    `mean` (V, 3); `seen` (V,), whether the face has enough pixels there.
     """
 
     mean: Array
@@ -54,38 +53,38 @@ class Difference:
 
 
 def normal_difference(mesh: Mesh, surface: Surface, true_normals: Normals, where: Mask) -> Difference:
-    """Measure one face.
+    """The difference of normals of one face.
 
     Args:
-        mesh: fitted; its `fit` tells how the face is turned.
+        mesh: fitted; its `fit` has the rotation of the face.
         surface: the mesh as the camera sees it.
         true_normals: H x W x 3 unit, camera frame.
-        where: H x W, above 0.5 where the truth is to be believed.
+        where: H x W, above 0.5 where the true normals are valid.
 
     Raises:
         UsageError: the mesh was not fitted.
     """
     if mesh.fit is None:
-        raise UsageError("a mesh without a fit does not tell how the face is turned; use geometry.morphable")
+        raise UsageError("a mesh without a fit has no rotation of the face; use geometry.morphable")
     used = (surface.triangle >= 0) & (where > 0.5)
-    apart = (true_normals[used] - surface.normals[used]) @ mesh.fit.rotation
+    difference = (true_normals[used] - surface.normals[used]) @ mesh.fit.rotation
     corners, shares = mesh.triangles[surface.triangle[used]], surface.barycentric[used].astype(np.float64)
     sums, weights = np.zeros((len(mesh.vertices), 3)), np.zeros(len(mesh.vertices))
     for k in range(3):
-        np.add.at(sums, corners[:, k], shares[:, k, None] * apart)
+        np.add.at(sums, corners[:, k], shares[:, k, None] * difference)
         np.add.at(weights, corners[:, k], shares[:, k])
-    return Difference(sums / np.maximum(weights, 1e-9)[:, None], weights > _LEAST_PIXELS)
+    return Difference(sums / np.maximum(weights, 1e-9)[:, None], weights > _MIN_PIXELS)
 
 
 def learned_relief(
     coarse: MorphableModel, levels: int, faces: Sequence[Difference], *, smoothness: float = 50.0, ridge: float = 0.1
 ) -> FloatArray:
-    """How far a coarse model's mean surface is to move along its normal: float32 (V,), mirror-symmetric.
+    """h: the displacement of a coarse model's mean surface along its normal, float32 (V,), mirror-symmetric.
 
     Args:
-        levels: how often the model was subdivided where the `faces` were measured.
-        faces: of `normal_difference`.
-        smoothness, ridge: see above.
+        levels: of subdivision of the model that the `faces` were measured on.
+        faces: results of `normal_difference`.
+        smoothness, ridge: weights in the module's formula.
 
     Raises:
         UsageError: no faces, or faces of another mesh.
@@ -95,27 +94,27 @@ def learned_relief(
         raise UsageError(f"a relief is learned from faces measured on this model's {matrix.shape[0]} vertices")
     fine = matrix @ coarse.mean.astype(np.float64)
     count = np.sum([face.seen for face in faces], axis=0)
-    wanted = np.sum([face.mean * face.seen[:, None] for face in faces], axis=0) / np.maximum(count, 1)[:, None]
+    target = np.sum([face.mean * face.seen[:, None] for face in faces], axis=0) / np.maximum(count, 1)[:, None]
     normals = vertex_normals(fine, triangles).astype(np.float64)
-    wanted -= np.einsum("vc,vc->v", wanted, normals)[:, None] * normals
+    target -= np.einsum("vc,vc->v", target, normals)[:, None] * normals
 
     slope = -(_gradient(fine, triangles) @ matrix)
     weight = np.repeat(count / len(faces), 3)
     laplace = _laplacian(coarse.triangles, len(coarse.mean)).toarray()
     system = (slope.T @ slope.multiply(weight[:, None])).toarray() + smoothness * laplace.T @ laplace
-    height = np.linalg.solve(system + ridge * np.eye(len(system)), slope.T @ (weight * wanted.ravel()))
+    height = np.linalg.solve(system + ridge * np.eye(len(system)), slope.T @ (weight * target.ravel()))
     partners = mirror_vertices(coarse)
     return np.asarray(height if partners is None else (height + height[partners]) / 2, np.float32)
 
 
 def with_relief(coarse: MorphableModel, relief: FloatArray) -> MorphableModel:
-    """The model with its mean's surface moved outwards by `relief` (V,), in depth."""
-    facing = vertex_normals(coarse.mean.astype(np.float64), coarse.triangles)[:, 2]
-    deeper = relief / np.maximum(facing, np.float32(_STEEP))
+    """The model with its mean surface displaced outwards by h = `relief` (V,), in depth."""
+    n_z = vertex_normals(coarse.mean.astype(np.float64), coarse.triangles)[:, 2]
+    depth = relief / np.maximum(n_z, np.float32(_MIN_FACING))
     partners = mirror_vertices(coarse)
     if partners is not None:
-        deeper = (deeper + deeper[partners]) / 2
-    return replace(coarse, mean=(coarse.mean + deeper[:, None] * np.array([0, 0, 1], np.float32)).astype(np.float32))
+        depth = (depth + depth[partners]) / 2
+    return replace(coarse, mean=(coarse.mean + depth[:, None] * np.array([0, 0, 1], np.float32)).astype(np.float32))
 
 
 def _gradient(points: Array, triangles: NDArray[np.int32]) -> Any:

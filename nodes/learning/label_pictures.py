@@ -1,4 +1,4 @@
-"""What the label network learns from: photographs with a teacher's labels, path-traced heads with the true ones."""
+"""Training pictures of the label network: photographs with a teacher's labels, path-traced heads with the true ones."""
 
 from __future__ import annotations
 
@@ -24,33 +24,33 @@ from graphface.nodes.types import FloatArray, Image, Landmarks
 Bytes = NDArray[np.uint8]
 
 MARGIN, FINE = 4 / 3, 3
-"""How much wider a lesson's picture is than the network's grid, and how many times finer that grid."""
+"""Size of a training picture over that of the network's grid, and the supersampling of the grid."""
 
-CERTAINTY = 2.0
-"""The teacher's logits are multiplied by it: what it is nearly sure of is to be learned as sure."""
+INVERSE_TEMPERATURE = 2.0
+"""Factor on the teacher's logits: labels that are nearly certain are learned as certain."""
 
 BACKDROP = 0
-"""Of the teacher's six classes."""
+"""Its number among the teacher's six classes."""
 
 
 @dataclass(frozen=True)
-class Lesson:
-    """One picture upright, with a margin about it, h x w (x C) as bytes.
+class TrainingPicture:
+    """A picture of an upright head, with a margin around the network's grid, h x w (x C) as bytes.
 
-    `pixels` sRGB; `seen` 255 within the photo; `labels` face and hair; `person` all that is no backdrop; `plate` the
+    `pixels` sRGB; `inside` 255 within the photo; `labels` face and hair; `person` everything but backdrop; `plate` the
     backdrop without the person. `landmarks` in this picture's pixels.
     """
 
     name: str
     pixels: Bytes
-    seen: Bytes
+    inside: Bytes
     labels: Bytes
     person: Bytes
     plate: Bytes
     landmarks: Landmarks
 
 
-def photo_lessons(paths: Iterable[Path]) -> Iterator[Lesson]:
+def photo_pictures(paths: Iterable[Path]) -> Iterator[TrainingPicture]:
     """Photographs with the labels of `masks.network`; those without a face are left out."""
     for path in paths:
         try:
@@ -60,12 +60,14 @@ def photo_lessons(paths: Iterable[Path]) -> Iterator[Lesson]:
             warn(f"{path.name} is left out: {error}")
             continue
         masks = geometric(photo, landmarks, rasterize(build_mesh(landmarks), photo))
-        found = network(photo, landmarks, masks, inverse_temperature=CERTAINTY)
+        found = network(photo, landmarks, masks, inverse_temperature=INVERSE_TEMPERATURE)
         labels = np.stack([found.face, found.hair], axis=2)
-        yield lesson(path.stem, photo, landmarks, labels, np.maximum(_person(photo, landmarks), labels.sum(axis=2)))
+        yield training_picture(
+            path.stem, photo, landmarks, labels, np.maximum(_person(photo, landmarks), labels.sum(axis=2))
+        )
 
 
-def head_lessons(data: Path) -> Iterator[Lesson]:
+def head_pictures(data: Path) -> Iterator[TrainingPicture]:
     """The heads of `data`/truth under every light, with their true labels and the landmarks found in each picture."""
     for head in heads_of(data):
         labels = head.labels[..., :2]
@@ -76,11 +78,13 @@ def head_lessons(data: Path) -> Iterator[Lesson]:
             except GraphfaceError as error:
                 warn(f"{head.name}/{light}.png is left out: {error}")
                 continue
-            yield lesson(f"{head.name}_{light}", photo, landmarks, labels, labels.sum(axis=2))
+            yield training_picture(f"{head.name}_{light}", photo, landmarks, labels, labels.sum(axis=2))
 
 
-def lesson(name: str, photo: Image, landmarks: Landmarks, labels: FloatArray, person: FloatArray) -> Lesson:
-    """Everything about one picture on its lesson's grid."""
+def training_picture(
+    name: str, photo: Image, landmarks: Landmarks, labels: FloatArray, person: FloatArray
+) -> TrainingPicture:
+    """A photo warped onto the grid of training pictures; `labels` H x W x 2 and `person` H x W in [0, 1]."""
     grid = upright_grid(landmarks)
     middle = np.array([WIDTH - 1, HEIGHT - 1]) / 2
     matrix = grid.matrix / MARGIN
@@ -88,12 +92,12 @@ def lesson(name: str, photo: Image, landmarks: Landmarks, labels: FloatArray, pe
     wide = UprightGrid(matrix)
     pixels = np.clip(wide.sampled(network_pixels(photo.pixels, photo.encoding), FINE), 0, 1)
     maps = np.clip(wide.sampled(np.dstack([labels, person]), FINE), 0, 1)
-    seen = wide.inside(photo.pixels.shape, FINE)
-    plate = plate_behind(pixels, maps[..., 2], seen)
-    return Lesson(
+    inside = wide.inside(photo.pixels.shape, FINE)
+    plate = plate_behind(pixels, maps[..., 2], inside)
+    return TrainingPicture(
         name=name,
         pixels=_bytes(pixels),
-        seen=_bytes(seen),
+        inside=_bytes(inside),
         labels=_bytes(maps[..., :2]),
         person=_bytes(maps[..., 2]),
         plate=_bytes(plate),
@@ -105,11 +109,11 @@ def _bytes(unit: FloatArray) -> Bytes:
     return np.rint(255 * unit).astype(np.uint8)
 
 
-def plate_behind(pixels: FloatArray, person: FloatArray, seen: FloatArray) -> FloatArray:
-    """The backdrop goes on behind the person: means of what shows, over ever wider surroundings."""
+def plate_behind(pixels: FloatArray, person: FloatArray, inside: FloatArray) -> FloatArray:
+    """The backdrop, filled in behind the person by means over wider and wider neighborhoods."""
     import cv2
 
-    weight = (np.square(1 - person) * seen)[..., None]
+    weight = (np.square(1 - person) * inside)[..., None]
     plate, known = pixels * weight, weight
     for level in range(2, 8):
         size = (max(1, pixels.shape[1] >> level), max(1, pixels.shape[0] >> level))
@@ -122,11 +126,11 @@ def plate_behind(pixels: FloatArray, person: FloatArray, seen: FloatArray) -> Fl
 
 
 def _person(photo: Image, landmarks: Landmarks) -> FloatArray:
-    """What the teacher does not call backdrop, H x W: clothes and hands too."""
+    """1 minus the teacher's probability of backdrop, H x W: clothes and hands are part of the person."""
     import cv2
 
-    window, chances = window_probabilities(photo, landmarks)
+    window, probabilities = window_probabilities(photo, landmarks)
     person = np.zeros(photo.pixels.shape[:2], np.float32)
     size = (window.right - window.left, window.bottom - window.top)
-    person[window.part] = 1 - cv2.resize(np.ascontiguousarray(chances[..., BACKDROP]), size)
+    person[window.part] = 1 - cv2.resize(np.ascontiguousarray(probabilities[..., BACKDROP]), size)
     return person

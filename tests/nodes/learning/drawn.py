@@ -1,0 +1,18 @@
+"""A training picture of a drawn head."""
+
+from __future__ import annotations
+
+import numpy as np
+from portraits import portrait
+
+from graphface.nodes.learning.label_pictures import training_picture
+
+
+def drawn_picture():
+    """A drawn head whose labels are known."""
+    photo, landmarks, labels = portrait()
+    masks = np.stack([labels == 0, labels == 1], axis=2).astype(np.float32)
+    return training_picture("drawn", photo, landmarks, masks, masks.sum(axis=2))
+
+
+PICTURE = drawn_picture()
