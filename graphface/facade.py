@@ -71,8 +71,7 @@ class Graph(WiredGraph):
             outputs: names of declared outputs, or any "node" or "node.field"; all declared ones by default.
             evaluator: where to run and what to keep; by default one per process, with a memory tier of the size
                 that the user has set (`graphface.settings`).
-            inputs: arrays, values or paths by input name. One called `outputs` or `evaluator` goes another way:
-                `evaluator.run(graph.request({"outputs": value}))`.
+            inputs: arrays, values or paths by input name; none can be called `outputs` or `evaluator`.
 
         Raises:
             InputError, UnreadableFile: an input is missing or does not fit. RunFailed: a node failed.

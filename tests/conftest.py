@@ -7,12 +7,17 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))  # importlib mode leaves `toys` unfindable otherwise
 
+from evaluator_lab import THREADS, TIERS, Lab, build
 from toys import LOGGER, toy_registry
 
 from graphface import Registry
+
+settings.register_profile("any machine", deadline=None)  # how long an example takes says nothing on a busy machine
+settings.load_profile("any machine")
 
 
 @pytest.fixture(scope="session")
@@ -45,3 +50,15 @@ def ran() -> Iterator[list[str]]:
     logger.setLevel(logging.INFO)
     yield labels
     logger.removeHandler(handler)
+
+
+@pytest.fixture(params=[f"{tier}-{threads}" for tier in TIERS for threads in THREADS])
+def lab(request: pytest.FixtureRequest, tmp_path: Path, registry: Registry, ran: list[str]) -> Lab:
+    tier, threads = request.param.split("-")
+    return build(tier, int(threads), tmp_path / "cache", registry, ran)
+
+
+@pytest.fixture(params=[1, 4])
+def quick(request: pytest.FixtureRequest, tmp_path: Path, registry: Registry, ran: list[str]) -> Iterator[Lab]:
+    """A lab with a memory tier, for behaviour that no tier has a part in."""
+    return build("memory", request.param, tmp_path, registry, ran)

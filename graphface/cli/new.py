@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 _STARTER = """\
-# yaml-language-server: $schema=graphface.document.schema.json
-# (graphface schema -o graphface.document.schema.json makes your editor complete and check this file)
+# yaml-language-server: $schema=graphface.schema.json
+# (graphface schema -o graphface.schema.json makes your editor complete and check this file)
 graphface: 1
 name: {name}
 doc: What this graph does, in a sentence.

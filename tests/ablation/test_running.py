@@ -2,19 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-import io
-
-import numpy as np
 import pytest
 
-from graphface import node
 from graphface.ablation import ablate
-from graphface.ablation.drawing import difference, where_they_differ
-from graphface.ablation.figures import measured, metrics_for
-from graphface.ablation.page import write_page
-from graphface.ablation.sheet import write_sheet
-from graphface.ablation.table import as_csv, as_markdown
 
 GRAPH = """
 graphface: 1
@@ -26,25 +16,6 @@ nodes:
   last: {use: toy.add, in: {a: middle, b: x}, with: {label: last}}
 outputs: {y: last}
 """
-
-
-@node("metrics.apart")
-def apart(result: float, truth: float) -> float:
-    """How far apart two numbers are; lower is better."""
-    return abs(result - truth)
-
-
-@node("metrics.needs_more")
-def needs_more(result: float, truth: float, third: float) -> float:
-    """Cannot be measured with two values."""
-    return 0.0
-
-
-@pytest.fixture
-def measuring(registry):
-    registry.add(apart)
-    registry.add(needs_more)
-    return registry
 
 
 class TestAblate:
@@ -76,65 +47,3 @@ class TestAblate:
         """Cases times variants."""
         done = ablate(GRAPH, ["start.plus=0,1,2"], [{"x": 1.0}, {"x": 5.0}], loading={"registry": registry})
         assert [cell.value for cell in done.of_case(1)] == [10.0, 11.0, 12.0]
-
-    def test_figures_against_the_truth(self, measuring):
-        """Each metric that fits is measured; one that needs a third value is not."""
-        declared = measuring.operator("toy.add").output
-        metrics = metrics_for(declared, measuring)
-        assert [m.name for m in metrics] == ["apart"]
-        done = ablate(
-            GRAPH, ["last=add,subtract"], [{"x": 2.0}], truths=[4.0], metrics=metrics, loading={"registry": measuring}
-        )
-        assert [cell.figures["apart"] for cell in done.cells] == [1.0, 3.0]
-
-    def test_a_metric_that_refuses_is_left_out(self, measuring):
-        """A figure that cannot be had is absent, not zero."""
-
-        @node("metrics.picky")
-        def picky(result: float, truth: float) -> float:
-            raise ValueError("never")
-
-        measuring.add(picky)
-        metrics = metrics_for(measuring.operator("toy.add").output, measuring)
-        assert set(measured(metrics, 1.0, 2.0)) == {"apart"}
-
-
-class TestReports:
-    def test_table(self, registry):
-        """CSV has a line for each variant; Markdown the same and the sentence on sharing."""
-        done = ablate(GRAPH, ["last=add,subtract"], [{"x": 2.0}], loading={"registry": registry})
-        lines = list(csv.DictReader(io.StringIO(as_csv(done))))
-        assert [line["variant"] for line in lines] == ["toy.add", "toy.subtract"]
-        assert lines[1]["shared nodes"] == "2 of 3"
-        assert done.sharing in as_markdown(done)
-
-    def test_page_and_sheet_of_values_without_pictures(self, registry, tmp_path):
-        """Numbers have no picture; the page is written with its table, the sheet says so."""
-        done = ablate(GRAPH, ["last=add,subtract"], [{"x": 2.0}], loading={"registry": registry})
-        write_page(done, tmp_path / "index.html")
-        write_sheet(done, tmp_path / "sheet.png")
-        text = (tmp_path / "index.html").read_text(encoding="utf-8")
-        assert text.count("<tr data-v=") == 2
-        assert (tmp_path / "sheet.png").stat().st_size > 0
-
-
-class TestDrawing:
-    def test_no_difference_is_mid_grey(self):
-        """Equal pictures give 128 everywhere, and so do sizes that cannot be compared."""
-        one = np.full((4, 5, 3), 77, np.uint8)
-        assert (difference(one, one) == 128).all()
-        assert (difference(one, one[:2]) == 128).all()
-
-    def test_finds_where_pictures_differ(self):
-        """The window holds the one place where they do."""
-        one = np.zeros((100, 120, 3), np.uint8)
-        other = one.copy()
-        other[70:75, 20:25] = 200
-        left, top, width, height = where_they_differ([one, other]) or (0, 0, 0, 0)
-        assert (left <= 20, left + width >= 25) == (True, True)
-        assert (top <= 70, top + height >= 75) == (True, True)
-
-    def test_equal_pictures_have_no_such_place(self):
-        """None, rather than any window."""
-        one = np.zeros((10, 10, 3), np.uint8)
-        assert where_they_differ([one, one]) is None

@@ -1,4 +1,4 @@
-"""The other commands, and what all of them share."""
+"""What all commands share, and commands of packs."""
 
 import json
 from collections.abc import Callable
@@ -17,6 +17,7 @@ def new(a: float, *, by: Annotated[float, Formerly("factor")] = 2) -> float:
     \"\"\"Multiply.\"\"\"
     return a * by
 """
+
 HEAVY = ("numpy", "networkx", "cv2", "scipy", "yaml", "PIL", "skimage", "sklearn")
 
 
@@ -88,69 +89,6 @@ class TestTop:
         assert said.code == 1
         assert "GRAPHFACE_TRACEBACK" in said.err
         assert len(said.err.strip().splitlines()) == 1
-
-
-class TestPlan:
-    def test_table(self, graphface: Callable[..., object], graph: Path, plugin: list[str]) -> None:
-        """Every node is told with what would become of it and why."""
-        said = graphface("plan", graph, *plugin)
-        assert said.code == 0
-        lines = {line.split()[0]: line for line in said.out.splitlines() if line.strip()}
-        assert " run " in lines["s"]
-        assert "not needed for scaled" in lines["unused"]
-
-    def test_output(self, graphface: Callable[..., object], graph: Path, plugin: list[str]) -> None:
-        """`-o` asks for something else; a file behind it does not matter."""
-        said = graphface("plan", graph, *plugin, "-o", "unused=x.png")
-        lines = {line.split()[0]: line for line in said.out.splitlines() if line.strip()}
-        assert " run " in lines["unused"]
-        assert "skipped" in lines["s"]
-
-    def test_brackets_in_a_reason(self, graphface: Callable[..., object], tmp_path: Path) -> None:
-        """A rule's reason is shown as it is, brackets and all."""
-        plugin = tmp_path / "plug.py"
-        plugin.write_text(
-            "from graphface import Lazy, node\n"
-            "def rule():\n    return {'extra': 'the range is [/lo, hi] of [red]'}\n"
-            "@node('mine.gate', needs=rule)\n"
-            "def gate(a: float, extra: Lazy[float]) -> float:\n    '''Lies in [low, high].'''\n    return a\n"
-        )
-        path = tmp_path / "g.yaml"
-        path.write_text(
-            "graphface: 1\ninputs: {x: {type: float, default: 1}}\nnodes:\n  n: {use: mine.gate, in: {a: x}}\n"
-            "  g: {use: mine.gate, in: {a: x, extra: n}}\noutputs: {y: g}\n"
-        )
-        said = graphface("plan", path, "--plugin", plugin)
-        assert said.code == 0
-        assert "the range is [/lo, hi] of [red]" in said.out
-        assert "Lies in [low, high]." in graphface("nodes", "--plugin", plugin).out
-
-
-class TestNodes:
-    def test_reference(self, graphface: Callable[..., object], plugin: list[str]) -> None:
-        """`nodes NAME` tells ports, parameters with their limits, and what may replace it."""
-        said = graphface("nodes", "toy.ranged", *plugin)
-        assert said.code == 0
-        for part in ("toy.ranged", "count", ">= 1", "<= 8", "required"):
-            assert part in said.out
-
-    def test_unknown(self, graphface: Callable[..., object], plugin: list[str]) -> None:
-        """An unknown operator is told the nearest."""
-        said = graphface("nodes", "toy.rnged", *plugin)
-        assert said.code == 2
-        assert "toy.ranged" in said.err
-
-    def test_alternatives(self, graphface: Callable[..., object], plugin: list[str]) -> None:
-        """What may take its place is told."""
-        assert "toy.subtract" in graphface("nodes", "toy.add", *plugin).out
-
-
-class TestAssets:
-    def test_unknown(self, graphface: Callable[..., object]) -> None:
-        """An unknown asset is a wrong request."""
-        said = graphface("assets", "path", "none")
-        assert said.code == 2
-        assert "there is no asset 'none' (there are " in said.err
 
 
 class TestEveryCommand:

@@ -5,28 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from graphface import DocumentError, Graph, Registry, UnreadableFile, load
+from graphface import DocumentError, Graph
 from graphface.errors import Problem
 
 Write = Callable[..., Path]
-
-
-@pytest.fixture
-def write(tmp_path: Path) -> Write:
-    """Writes graph files, without the first line that all have."""
-
-    def write_file(name: str, text: str) -> Path:
-        path = tmp_path / name
-        path.parent.mkdir(exist_ok=True, parents=True)
-        path.write_text("graphface: 1\n" + text)
-        return path
-
-    return write_file
-
-
-@pytest.fixture
-def opened(registry: Registry) -> Callable[..., Graph]:
-    return lambda path, **choices: load(path, registry=registry, **choices)
 
 
 def refused(opened: Callable[..., Graph], path: object, **choices: object) -> list[Problem]:
@@ -37,63 +19,6 @@ def refused(opened: Callable[..., Graph], path: object, **choices: object) -> li
 
 def setting(graph: Graph, node: str, parameter: str = "plus") -> object:
     return next(step for step in graph.steps if step.name == node).parameters[parameter]
-
-
-ADD = "nodes:\n  n: {use: toy.number}\n  x: {use: toy.add, in: {a: n}, with: {plus: 1}}\noutputs: {y: x}\n"
-
-
-class TestExtends:
-    def test_base_shines_through(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """What a file does not say is as its base says."""
-        write("base.yaml", "doc: Base.\n" + ADD)
-        graph = opened(write("g.yaml", "extends: base.yaml\nnodes: {x: {with: {plus: 5}}}\n"))
-        assert dict(graph.run()) == {"y": 6}
-        assert graph.composition.doc == "Base."
-
-    def test_chain(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """A base may have a base."""
-        write("a.yaml", ADD)
-        write("b.yaml", "extends: a.yaml\nnodes: {n: {with: {value: 10}}, x: {with: {plus: 2}}}\n")
-        assert opened(write("c.yaml", "extends: b.yaml\nnodes: {x: {with: {plus: 3}}}\n")).run()["y"] == 13
-
-    def test_removal(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """`node: null` takes a node of the base away."""
-        write("base.yaml", ADD)
-        graph = opened(write("g.yaml", "extends: base.yaml\nnodes: {x: null}\noutputs: {y: n}\n"))
-        assert [s.name for s in graph.steps] == ["n"]
-
-    def test_removed_and_stated_again(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """A node that a base removed comes back where a file says what it is."""
-        write("a.yaml", ADD)
-        write("b.yaml", "extends: a.yaml\nnodes: {x: null}\noutputs: {y: n}\n")
-        text = "extends: b.yaml\nnodes: {x: {use: toy.add, in: {a: n}, with: {plus: 7}}}\noutputs: {y: x}\n"
-        assert opened(write("c.yaml", text)).run()["y"] == 8
-
-    def test_other_operator(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """Parameters written for an operator that a file exchanges are dropped if the new one has none such."""
-        write("base.yaml", ADD)
-        graph = opened(write("g.yaml", "extends: base.yaml\nnodes: {x: {use: toy.subtract}}\n"))
-        assert graph.run()["y"] == 1
-
-    def test_names_are_of_the_file_that_says_them(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """A file named by a base is looked for beside the base."""
-        write("bases/inner.yaml", ADD)
-        write("bases/base.yaml", "nodes: {i: {use: inner.yaml}}\noutputs: {y: i}\n")
-        assert opened(write("g.yaml", "extends: bases/base.yaml\n")).run()["y"] == 2
-
-    def test_itself(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """A file that extends itself, also by way of another, is refused."""
-        write("b.yaml", "extends: a.yaml\n")
-        (problem,) = refused(opened, write("a.yaml", "extends: b.yaml\n"))
-        assert "extends itself" in problem.message
-
-    def test_missing(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """A base that does not exist is told with the nearest name."""
-        write("base.yaml", ADD)
-        problem, *_ = refused(opened, write("g.yaml", "extends: bas.yaml\n"))
-        assert problem.nearest[0] == "base.yaml"
-        assert problem.place is not None
-        assert (problem.place.line, problem.place.column) == (2, 10)
 
 
 class TestNesting:
@@ -221,128 +146,6 @@ outputs: {total: sum}
             write(f"g{i}.yaml", "nodes:\n" + "".join(f"  x{k}: {{use: g{i - 1}.yaml}}\n" for k in range(10)))
         (problem,) = refused(opened, write("g.yaml", "nodes: {x: {use: g7.yaml}}\n"))
         assert "1,000" in problem.message
-
-
-class TestFiles:
-    @pytest.mark.parametrize("name", ["../secret.yaml", "sub/../../secret.yaml"])
-    def test_outside(self, tmp_path: Path, write: Write, opened: Callable[..., Graph], name: str) -> None:
-        """A graph file cannot use or extend a file outside the folder of the graph that was asked for."""
-        (tmp_path / "graphs" / "sub").mkdir(parents=True)
-        write("secret.yaml", ADD)
-        for text in (f"nodes: {{x: {{use: {name}}}}}\n", f"extends: {name}\n"):
-            problem, *_ = refused(opened, write("graphs/g.yaml", text))
-            assert "outside" in problem.message
-
-    def test_absolute(self, tmp_path: Path, write: Write, opened: Callable[..., Graph]) -> None:
-        """Nor by its absolute path."""
-        secret = write("secret.yaml", ADD)
-        problem, *_ = refused(opened, write("graphs/g.yaml", f"nodes: {{x: {{use: {secret}}}}}\n"))
-        assert "outside" in problem.message
-
-    def test_link(self, tmp_path: Path, write: Write, opened: Callable[..., Graph]) -> None:
-        """Nor through a link that lies inside."""
-        secret = write("secret.yaml", ADD)
-        graph = write("graphs/g.yaml", "nodes: {x: {use: link.yaml}}\n")
-        (tmp_path / "graphs" / "link.yaml").symlink_to(secret)
-        problem, *_ = refused(opened, graph)
-        assert "outside" in problem.message
-
-    def test_flag_cannot_reach_outside_either(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """`--replace` names graph files under the same rule."""
-        write("secret.yaml", ADD)
-        graph = write("graphs/g.yaml", ADD)
-        problem, *_ = refused(opened, graph, replace={"x": "../secret.yaml"})
-        assert "outside" in problem.message
-
-    @pytest.mark.parametrize("name", ['"a\\0.yaml"', "x" * 5000 + ".yaml", '"\\n.yaml"', ".yaml", "/.yaml"])
-    def test_impossible_name(self, write: Write, opened: Callable[..., Graph], name: str) -> None:
-        """A name that no file can have is a file that does not exist."""
-        for text in (f"nodes: {{x: {{use: {name}}}}}\n", f"extends: {name}\n"):
-            problem, *_ = refused(opened, write("g.yaml", text))
-            assert "no graph file" in problem.message
-
-    @pytest.mark.parametrize("name", ["nowhere", "a\0b", "x" * 5000])
-    def test_unknown_graph(self, registry: Registry, name: str) -> None:
-        """A graph that is neither a file nor shipped is named."""
-        with pytest.raises(UnreadableFile):
-            load(name, registry=registry)
-
-    def test_broken_inner_file(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """A problem inside a used file is told with its place in that file."""
-        write("bad.yaml", "nodes: {x: 3}\n")
-        found = refused(opened, write("g.yaml", "nodes: {x: {use: bad.yaml}}\n"))
-        assert found[0].place is not None
-        assert found[0].place.source.name.endswith("bad.yaml")
-
-
-class TestOverlays:
-    TEXT = (
-        ADD
-        + "variants:\n  more: {x: {with: {plus: 10}}}\n  less: {x: {use: toy.subtract}}\n  none: {x: null}\n"
-        + "profiles:\n  draft: {x: {plus: 100}}\n  odd: {n: {value: 7}, x: {plus: 200}}\n"
-    )
-
-    @pytest.fixture
-    def path(self, write: Write) -> Path:
-        return write("g.yaml", self.TEXT)
-
-    def test_variant(self, path: Path, opened: Callable[..., Graph]) -> None:
-        """A variant changes what it names."""
-        assert opened(path, variants=["more"]).run()["y"] == 11
-
-    def test_later_variant_wins(self, path: Path, opened: Callable[..., Graph]) -> None:
-        """Of several, the later wins, and what they do not both say adds up."""
-        assert opened(path, profiles=["odd", "draft"]).run()["y"] == 107
-        assert opened(path, profiles=["draft", "odd"]).run()["y"] == 207
-
-    def test_operator_of_a_variant(self, path: Path, opened: Callable[..., Graph]) -> None:
-        """A variant may exchange the operator; parameters that the new one does not know are dropped."""
-        assert opened(path, variants=["less"]).run()["y"] == 1
-
-    def test_set_of_a_dropped_parameter(self, path: Path, opened: Callable[..., Graph]) -> None:
-        """But a parameter set by hand for the new operator is never dropped silently."""
-        (problem,) = refused(opened, path, variants=["less"], set={"x.plus": 3})
-        assert "'plus'" in problem.message
-        assert problem.place is not None
-        assert problem.place.source.name == "--set"
-
-    def test_removed_node(self, path: Path, opened: Callable[..., Graph]) -> None:
-        """What needs a node that a variant removed says so."""
-        (problem,) = refused(opened, path, variants=["none"])
-        assert "'x'" in problem.message
-
-    @pytest.mark.parametrize(
-        ("choice", "nearest"),
-        [({"variants": ["mor"]}, "more"), ({"profiles": ["drat"]}, "draft")],
-        ids=["variant", "profile"],
-    )
-    def test_unknown(self, path: Path, opened: Callable[..., Graph], choice: dict[str, object], nearest: str) -> None:
-        """An unknown variant or profile is told the nearest."""
-        (problem,) = refused(opened, path, **choice)
-        assert problem.nearest == (nearest,)
-
-    @pytest.mark.parametrize(
-        ("choice", "flag"),
-        [({"set": {"xx.plus": 1}}, "--set"), ({"replace": {"xx": "toy.add"}}, "--replace")],
-        ids=["set", "replace"],
-    )
-    def test_unknown_node(self, path: Path, opened: Callable[..., Graph], choice: dict[str, object], flag: str) -> None:
-        """A flag for a node that does not exist is told the nearest, and its place is the flag."""
-        (problem,) = refused(opened, path, **choice)
-        assert problem.nearest == ("x",)
-        assert problem.place is not None
-        assert problem.place.source.name == flag
-
-    def test_unknown_inner_node(self, write: Write, opened: Callable[..., Graph]) -> None:
-        """Inside a used graph the nearest is told by its path."""
-        write("inner.yaml", ADD)
-        path = write("o.yaml", "nodes: {face: {use: inner.yaml}}\n")
-        (problem,) = refused(opened, path, set={"face/xx.plus": 1})
-        assert problem.nearest[0] == "face/x"
-
-    def test_replace(self, path: Path, opened: Callable[..., Graph]) -> None:
-        """`--replace` exchanges an operator and keeps its wires."""
-        assert opened(path, replace={"x": "toy.slow"}).run()["y"] == 1
 
 
 class TestPrecedence:

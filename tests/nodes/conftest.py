@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import settings
 from numpy.typing import NDArray
 
 from graphface.assets.asset import AssetUnavailable
@@ -21,9 +20,6 @@ from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.morphable.topology import facemesh_topology
 from graphface.nodes.surface.rasterize import rasterize
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mesh, Surface
-
-settings.register_profile("no deadline", deadline=None)  # wall-clock times say little on a busy machine
-settings.load_profile("no deadline")
 
 
 @pytest.fixture

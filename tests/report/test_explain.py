@@ -1,63 +1,12 @@
 """Every node says why it ran or did not, in the process and from one command to the next."""
 
-import json
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
+from history_lab import NODES, Lab, graph_of
 from toys import toy_registry
 
-from graphface import Evaluator, Graph, MemoryTier, Registry, RunFailed, load
-from graphface.cache.disk import DiskTier
-from graphface.cache.folder import MARK
-from graphface.cli import main
-from graphface.report.explain import Explained, Sizes, explain, with_results
-from graphface.report.history import History, Remember
-
-NODES = """\
-graphface: 1
-name: lab
-inputs: {x: float}
-nodes:
-  left: {use: toy.add, in: {a: x}, with: {plus: 1}}
-  right: {use: toy.add, in: {a: x}, with: {plus: 2}}
-  join: {use: toy.add, in: {a: left, b: right}}
-  grid: {use: toy.grid}
-  pair: {use: toy.pair, in: {grid: grid}}
-  mean: {use: toy.mean, in: {grid: pair.low}}
-outputs: {join: join, mean: mean}
-"""
-
-
-class Lab:
-    """A cache and a history that several requests share."""
-
-    def __init__(self, folder: Path, *, disk: bool = True, budget: int = 1 << 26) -> None:
-        self.folder = folder
-        self.said: list[str] = []
-        self.memory = None if disk else MemoryTier(budget)
-        self.disk = DiskTier(folder, budget, self.said.append) if disk else None
-        self.history = History.beside(folder if disk else None)
-
-    def evaluator(self, *observers: Any) -> Evaluator:
-        return Evaluator(memory=self.memory, disk=self.disk, observers=observers)
-
-    def before(self, graph: Graph, outputs: list[str] | None = None, **inputs: Any) -> dict[str, Explained]:
-        """What is said without running anything."""
-        asked = graph.request(inputs, outputs)
-        return {entry.name: entry for entry in explain(asked, self.evaluator(), self.history)}
-
-    def run(self, graph: Graph, outputs: list[str] | None = None, **inputs: Any) -> dict[str, Explained]:
-        """What is said of a run."""
-        asked = graph.request(inputs, outputs)
-        evaluator = self.evaluator(Sizes(), Remember(self.history, self.disk))
-        explained = explain(asked, evaluator, self.history)
-        try:
-            records = evaluator.run(asked).records
-        except RunFailed as failure:
-            records = failure.records
-        return {entry.name: entry for entry in with_results(explained, records, self.said)}
+from graphface import load
 
 
 @pytest.fixture(params=["memory", "disk"])
@@ -68,10 +17,6 @@ def lab(request: pytest.FixtureRequest, tmp_path: Path) -> Lab:
 @pytest.fixture
 def disk_lab(tmp_path: Path) -> Lab:
     return Lab(tmp_path / "cache")
-
-
-def graph_of(text: str = NODES, registry: Registry | None = None, **choices: Any) -> Graph:
-    return load(text, registry=registry or toy_registry(), **choices)
 
 
 class TestReasons:
@@ -297,121 +242,3 @@ class TestNumbers:
         """What a node fell back on stands with it."""
         graph = graph_of("graphface: 1\ninputs: {x: float}\nnodes: {n: {use: toy.fall_back, in: {a: x}}}\n")
         assert lab.run(graph, ["n"], x=9.0)["n"].warnings == ("9.0 was too much",)
-
-
-class TestHistory:
-    def test_between_processes(self, disk_lab: Lab) -> None:
-        """What one process remembers another knows."""
-        disk_lab.run(graph_of(), x=1.0)
-        later = Lab(disk_lab.folder)
-        assert later.before(graph_of(set={"left.plus": 5}), x=1.0)["left"].reason.kind == "parameter"
-
-    @pytest.mark.parametrize("text", ["", "{", "[]", '{"left": {"key": 1}}', "\udcff"])
-    def test_unreadable(self, disk_lab: Lab, text: str) -> None:
-        """A damaged history is none."""
-        disk_lab.run(graph_of(), x=1.0)
-        (file,) = (disk_lab.folder / "history").iterdir()
-        file.write_text(text, encoding="utf-8", errors="surrogateescape")
-        assert History.beside(disk_lab.folder).last("lab") == {}
-
-    def test_nothing_stored(self, tmp_path: Path) -> None:
-        """A run that stores nothing leaves no folder that the cache would take for somebody else's."""
-        lab = Lab(tmp_path / "cache", budget=10)
-        lab.run(graph_of(), x=1.0)
-        assert not (tmp_path / "cache" / MARK).exists()
-        assert DiskTier(tmp_path / "cache", 1 << 20).stats().entries == 0
-
-    def test_names(self, disk_lab: Lab) -> None:
-        """Graphs of other names never share a history, whatever characters are in them and however long they are."""
-        for name in ("a b", "a_b", "../../up", "x" * 5000):
-            disk_lab.run(graph_of(NODES.replace("name: lab", f"name: '{name}'")), x=1.0)
-        assert len(list((disk_lab.folder / "history").iterdir())) == 4
-
-    def test_unwritable(self, tmp_path: Path) -> None:
-        """A history that cannot be written stops nothing."""
-        lab = Lab(tmp_path / "cache")
-        lab.run(graph_of("graphface: 1\nnodes: {n: {use: toy.number}}\n"), ["n"])
-        for file in (tmp_path / "cache" / "history").iterdir():
-            file.unlink()
-        (tmp_path / "cache" / "history").rmdir()
-        (tmp_path / "cache" / "history").write_text("a file where the folder should be")
-        assert lab.run(graph_of(), x=1.0)["join"].fate == "ran"
-
-
-PLUGIN = """\
-from graphface import node
-
-@node("mine.add")
-def add(a: float, b: float = 0.0, *, plus: float = 0.0) -> float:
-    return a + b + plus
-
-@node("mine.fail")
-def fail(a: float) -> float:
-    raise ValueError("it [/] broke")
-"""
-
-MINE = """\
-graphface: 1
-name: mine
-inputs: {x: float}
-nodes:
-  left: {use: mine.add, in: {a: x}}
-  join: {use: mine.add, in: {a: left}}
-  bad: {use: mine.fail, in: {a: left}}
-outputs: {join: join}
-"""
-
-
-class TestCommand:
-    @pytest.fixture
-    def call(
-        self, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-    ) -> Iterator[Any]:
-        """`graphface explain` on the graph MINE: exit code, standard output and error."""
-        (tmp_path / "mine.py").write_text(PLUGIN)
-        (tmp_path / "mine.yaml").write_text(MINE)
-        monkeypatch.chdir(tmp_path)
-
-        def explain(*flags: str) -> tuple[int, str, str]:
-            with pytest.raises(SystemExit) as left:
-                main(["explain", "mine.yaml", "--plugin", "mine.py", "-i", "x=1", "--cache", "cache", *flags])
-            said = capsys.readouterr()
-            return int(left.value.code or 0), said.out, said.err
-
-        return explain
-
-    def test_json(self, call: Any) -> None:
-        """--json prints one object a node; its reason stands there in words and in parts."""
-        code, out, _ = call("--run", "--json")
-        assert code == 0
-        found = {entry["name"]: entry for entry in json.loads(out)}
-        assert set(found["join"]) == {
-            *("name", "operator", "fate", "reason", "because", "key", "milliseconds", "bytes", "warnings")
-        }
-        assert (found["join"]["fate"], found["join"]["reason"]) == ("ran", "first seen")
-        assert (found["bad"]["fate"], found["bad"]["reason"]) == ("skipped", "not needed for join")
-
-    def test_from_one_command_to_the_next(self, call: Any) -> None:
-        """The next command knows what the last one ran."""
-        call("--run")
-        _, out, _ = call("--json", "--set", "left.plus=3")
-        found = {entry["name"]: entry for entry in json.loads(out)}
-        assert found["left"]["reason"] == "parameter plus changed from 0.0 to 3.0"
-        assert found["join"]["reason"] == "left changed above it"
-
-    def test_without_run(self, call: Any) -> None:
-        """Without --run nothing is run, stored or remembered."""
-        assert call()[0] == 0
-        assert not Path("cache").exists()
-
-    def test_table(self, call: Any) -> None:
-        """The table has a line for each node."""
-        _, out, _ = call("--run")
-        assert [line.split()[0] for line in out.splitlines()] == ["node", "left", "join", "bad"]
-
-    def test_failure(self, call: Any) -> None:
-        """A failing node is in the table with its reason, brackets and all, and the exit code is 1."""
-        code, out, err = call("--run", "-o", "bad")
-        assert code == 1
-        assert "ValueError: it [/] broke" in out
-        assert err.startswith("error: ")

@@ -1,12 +1,10 @@
-"""A loaded graph: where it may come from, what can be asked of it, and how it looks from outside."""
+"""A graph comes from a file, a text, a mapping or a name, and imports no code."""
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from graphface import DocumentError, Graph, Registry, UsageError, load
-from graphface.errors import InputError
 
 TEXT = """graphface: 1
 name: sums
@@ -72,60 +70,3 @@ class TestSources:
         for use in ("evil.run", "evil", "evil:run", "evil.py", "./evil.py"):
             with pytest.raises(DocumentError):
                 load(f"graphface: 1\nnodes:\n  x: {{use: '{use}'}}\n", registry=registry)
-
-
-class TestRequests:
-    def test_all_outputs(self, graph: Graph) -> None:
-        """By default all declared outputs are computed."""
-        assert set(graph.run(g=np.ones((2, 2)))) == {"y", "low"}
-
-    def test_any_node(self, graph: Graph) -> None:
-        """Any node, field or input can be asked for."""
-        result = graph.run(["m", "p.high", "x"], g=np.ones((2, 2)))
-        assert result["m"] == 1
-        assert result["p.high"].max() == 2
-        assert result["x"] == 2
-
-    @pytest.mark.parametrize("name", ["mm", "p.hihg", "m.low", "", ".", "y.low"])
-    def test_unknown(self, graph: Graph, name: str) -> None:
-        """What the graph does not have is refused by name."""
-        with pytest.raises(InputError) as caught:
-            graph.targets([name])
-        assert caught.value.name == name
-
-    def test_missing(self, graph: Graph) -> None:
-        """Inputs that a request needs and nobody gave are known before running."""
-        assert graph.missing({}, graph.targets(["m"]).values()) == ["g"]
-        assert graph.missing({}, graph.targets(["y"]).values()) == []
-
-    def test_type(self, graph: Graph) -> None:
-        """The type behind a target is known before running."""
-        assert str(graph.type_of(graph.targets(["p.high"])["p.high"])) == "Grid | None"
-
-
-class TestOutside:
-    def test_repr(self, graph: Graph) -> None:
-        """A graph prints as its name, size and outputs."""
-        assert repr(graph) == "Graph('sums', 3 nodes, outputs: y, low)"
-
-    def test_networkx(self, graph: Graph) -> None:
-        """As a networkx graph its edges carry the ports."""
-        drawn = graph.networkx()
-        assert set(drawn.nodes) == {"x", "g", "a", "p", "m"}
-        assert drawn.edges["p", "m"]["port"] == "grid"
-        assert drawn.nodes["a"]["operator"] == "toy.add"
-
-    def test_behind(self, graph: Graph) -> None:
-        """What may be needed is known without running, in an order that runs."""
-        slots = graph.behind(graph.targets(["m"]).values())
-        names = [*graph.input_names, *(step.name for step in graph.steps)]
-        assert [names[slot] for slot in slots] == ["g", "p", "m"]
-
-    def test_thousand_nodes(self, registry: Registry) -> None:
-        """A large graph loads and runs whole."""
-        nodes = ["  n0: {use: toy.number}"]
-        nodes += [f"  n{i}: {{use: toy.add, in: {{a: n{i - 1}, b: n{i // 2}}}}}" for i in range(1, 60)]
-        nodes += [f"  m{i}: {{use: toy.add, in: {{a: n{i % 60}}}, with: {{plus: {i}}}}}" for i in range(1000)]
-        loaded = load("graphface: 1\nnodes:\n" + "\n".join(nodes) + "\n", registry=registry)
-        asked = [f"m{i}" for i in range(1000)]
-        assert loaded.run(asked)["m0"] == 1

@@ -1,0 +1,51 @@
+"""What can be asked of a graph: outputs, nodes, fields, inputs."""
+
+import numpy as np
+import pytest
+
+from graphface import Graph, Registry, load
+from graphface.errors import InputError
+
+TEXT = """graphface: 1
+name: sums
+inputs: {x: {type: float, default: 2}, g: Grid}
+nodes:
+  a: {use: toy.add, in: {a: x}, with: {plus: 1}}
+  p: {use: toy.pair, in: {grid: g}}
+  m: {use: toy.mean, in: {grid: p.low}}
+outputs: {y: a, low: p.low}
+"""
+
+
+@pytest.fixture
+def graph(registry: Registry) -> Graph:
+    return load(TEXT, registry=registry)
+
+
+class TestRequests:
+    def test_all_outputs(self, graph: Graph) -> None:
+        """By default all declared outputs are computed."""
+        assert set(graph.run(g=np.ones((2, 2)))) == {"y", "low"}
+
+    def test_any_node(self, graph: Graph) -> None:
+        """Any node, field or input can be asked for."""
+        result = graph.run(["m", "p.high", "x"], g=np.ones((2, 2)))
+        assert result["m"] == 1
+        assert result["p.high"].max() == 2
+        assert result["x"] == 2
+
+    @pytest.mark.parametrize("name", ["mm", "p.hihg", "m.low", "", ".", "y.low"])
+    def test_unknown(self, graph: Graph, name: str) -> None:
+        """What the graph does not have is refused by name."""
+        with pytest.raises(InputError) as caught:
+            graph.targets([name])
+        assert caught.value.name == name
+
+    def test_missing(self, graph: Graph) -> None:
+        """Inputs that a request needs and nobody gave are known before running."""
+        assert graph.missing({}, graph.targets(["m"]).values()) == ["g"]
+        assert graph.missing({}, graph.targets(["y"]).values()) == []
+
+    def test_type(self, graph: Graph) -> None:
+        """The type behind a target is known before running."""
+        assert str(graph.type_of(graph.targets(["p.high"])["p.high"])) == "Grid | None"

@@ -1,0 +1,40 @@
+"""`graphface.load` and the graph that it returns."""
+
+from pathlib import Path
+
+import pytest
+
+from graphface import DocumentError, Evaluator, Registry, load
+from graphface.facade import shared_evaluator
+
+TEXT = "graphface: 1\nname: sums\ninputs: {x: {type: float, default: 2}}\nnodes: {a: {use: toy.add, in: {a: x}}}\n"
+
+
+class TestLoad:
+    def test_choices(self, registry: Registry) -> None:
+        """`set` and `replace` act as on the command line."""
+        loaded = load(TEXT, registry=registry, set={"a.times": 3.0}, replace={"a": "toy.subtract"})
+        assert loaded.steps[0].operator.name == "toy.subtract"
+
+    def test_plugin(self, registry: Registry, tmp_path: Path) -> None:
+        """Plug-ins of one load do not stay in the registry."""
+        (tmp_path / "plug.py").write_text(
+            "from graphface import node\n@node('mine.one')\ndef one() -> float:\n    return 1.0\n"
+        )
+        text = "graphface: 1\nnodes: {o: {use: mine.one}}\n"
+        assert load(text, registry=registry, plugins=[tmp_path / "plug.py"]).run(["o"])["o"] == 1
+        with pytest.raises(DocumentError):
+            load(text, registry=registry)
+
+
+class TestGraph:
+    def test_run(self, registry: Registry) -> None:
+        """On the evaluator that all graphs share, or on one that is given."""
+        loaded = load(TEXT, registry=registry)
+        assert loaded.run(["a"], x=3.0)["a"] == 3
+        assert shared_evaluator() is shared_evaluator()
+
+    def test_request(self, registry: Registry) -> None:
+        """What `run` asks of the shared evaluator can be asked of any."""
+        loaded = load(TEXT, registry=registry)
+        assert Evaluator().run(loaded.request({"x": 4.0}, ["a"]))["a"] == 4
