@@ -143,7 +143,7 @@ def _in_scheme_of(model: MorphableModel, landmarks: Landmarks) -> Landmarks:
 
 def _known_landmarks(model: MorphableModel, landmarks: Landmarks) -> NDArray[np.intp]:
     """Numbers of the landmarks that are finite and that the model knows."""
-    finite: NDArray[np.bool_] = np.isfinite(landmarks.points[:, :2]).all(axis=1)
+    finite = np.asarray(np.isfinite(landmarks.points[:, :2]).all(axis=1), np.bool_)
     known = np.flatnonzero(finite & (model.landmarks[landmarks.scheme] >= 0))
     if len(known) < MIN_POINTS:
         raise UnusableLandmarks(
