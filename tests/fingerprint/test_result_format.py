@@ -30,7 +30,7 @@ GUARDED = {
     "graphface.graph.inputs:_from_text": "e0e303043794",
     "graphface.graph.inputs:_own": "7c42d5152225",
     "graphface.values.port_types:PortType.coerce": "d82125ab228b",
-    "graphface.values.frozen:freeze": "fa284a74b616",
+    "graphface.values.frozen:freeze": "7e0cdc14f75f",
     # stored values
     "graphface.values.codec": "f27e20f3b041",
     # keys
