@@ -29,17 +29,17 @@ class Task:
     )
 
     def __init__(self, key: bytes, slot: int, step: Step | None) -> None:
-        self.key = key
-        self.slot = slot
-        self.step = step
-        self.waiting = 0
+        self.key: bytes = key
+        self.slot: int = slot
+        self.step: Step | None = step
+        self.waiting: int = 0
         self.waiters: list[Task] = []
         self.sources: list[Task] = []
-        self.readers = 0
+        self.readers: int = 0
         self.declined: Declined | None = None
-        self.failed = False
-        self.heavy = False
-        self.size = 0
+        self.failed: bool = False
+        self.heavy: bool = False
+        self.size: int = 0
 
 
 def label(step: Step | None) -> str:

@@ -41,9 +41,9 @@ class Fingerprint:
     __slots__ = ("digest", "reached", "watched")
 
     def __init__(self, digest: bytes, reached: tuple[str, ...], watched: tuple[Watch, ...]) -> None:
-        self.digest = digest
-        self.reached = reached
-        self.watched = watched
+        self.digest: bytes = digest
+        self.reached: tuple[str, ...] = reached
+        self.watched: tuple[Watch, ...] = watched
 
     def __repr__(self) -> str:
         return f"Fingerprint({self.digest.hex()[:12]}, {len(self.reached)} reached)"

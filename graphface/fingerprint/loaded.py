@@ -77,12 +77,14 @@ class Module:
     """
 
     def __init__(self, name: str, source: Source, loaded: ModuleType | None, known: dict[str, Any] | None) -> None:
-        self.name, self.source, self.loaded = name, source, loaded
-        self.spec = getattr(loaded, "__spec__", None)
+        self.name: str = name
+        self.source: Source = source
+        self.loaded: ModuleType | None = loaded
+        self.spec: Any = getattr(loaded, "__spec__", None)
         self._departures: list[tuple[str, Any]] = []
         self._imports: list[tuple[str, Any, str, str | None]] = []
         self.classes: set[type] = set()
-        self.watch = Watch()
+        self.watch: Watch = Watch()
         self._first, self._known = known is None, known or {}
         self.watch.name(sys.modules, name)
         for file in source.files:

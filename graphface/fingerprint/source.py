@@ -58,13 +58,15 @@ class Source:
             content = syntax(tree) if path.suffix == ".py" else text
         state = new_hash()
         state.update(content)
-        self.digest = state.digest()
+        self.digest: bytes = state.digest()
         top = distribution(module)
         statements = dict.fromkeys(self._read(tree.body, ""))
-        self.imports = tuple(dict.fromkeys(name for read in statements for name in imported(*read, top)))
-        self.has_effects = not all(isinstance(node, _DEFINES) or ignored(node, tree) for node in tree.body)
+        self.imports: tuple[str, ...] = tuple(
+            dict.fromkeys(name for read in statements for name in imported(*read, top))
+        )
+        self.has_effects: bool = not all(isinstance(node, _DEFINES) or ignored(node, tree) for node in tree.body)
         depth = self._package.count(".") - top.count(".") + 1
-        self.files = tuple(dict.fromkeys(self._named_files(path.parents[:depth])))
+        self.files: tuple[Path, ...] = tuple(dict.fromkeys(self._named_files(path.parents[:depth])))
 
     @cached_property
     def codes(self) -> dict[str, list[CodeType]]:

@@ -41,7 +41,7 @@ class Walk:
     def __init__(self, functions: Sequence[Callable[..., Any]], engine: int) -> None:
         self.reached: dict[str, bytes] = {}
         self._live = Watch()
-        self.watched = [self._live]
+        self.watched: list[Watch] = [self._live]
         self._own = distribution(getattr(functions[0], "__module__", None) or "builtins")
         self._state = new_hash()
         self._numbers: dict[int, tuple[int, Any]] = {}  # holds the objects, or an id might be given again
@@ -55,7 +55,7 @@ class Walk:
             else:
                 self._read(self._modules.popleft())
         self._state.update(exact(sorted(self.reached.items())))
-        self.digest = self._state.digest()
+        self.digest: bytes = self._state.digest()
 
     def _reach(self, module: str) -> None:
         name = released(module, self._own)

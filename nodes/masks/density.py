@@ -70,7 +70,7 @@ class MixtureDensity:
         marginal = fit_mixture(self._flat[sampled(np.ones(len(self._flat), bool))], components=1, floor=0.1)
         if marginal is None:
             warn("masks: no pixel has finite features; labels follow from their place alone")
-            self.log_marginal = np.zeros(len(self._flat), np.float32)
+            self.log_marginal: FloatArray = np.zeros(len(self._flat), np.float32)
         else:
             self.log_marginal = TEMPERING * marginal.log_likelihood(self._flat)
 
