@@ -32,6 +32,7 @@ GUARDED = {
     "graphface.values.port_types:PortType.coerce": "d82125ab228b",
     "graphface.values.frozen:freeze": "7e0cdc14f75f",
     # stored values
+    "graphface.values.parts": "c3554acb3858",
     "graphface.values.codec": "f27e20f3b041",
     # keys
     "graphface.values.digest": "479ba675fc07",
