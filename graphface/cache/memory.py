@@ -27,8 +27,16 @@ _GIVE_BACK_BYTES = 64 << 20
 """An eviction is given back to the system where it frees this share of the budget, and so many bytes."""
 
 
-_Held = tuple[Any, float, tuple[np.ndarray, ...]]
-"""A value with the seconds that it took to compute, and the buffers it holds."""
+class _Held:
+    """A value with what it took to compute, the buffers it holds, and when it was last used."""
+
+    __slots__ = ("arrays", "seconds", "used", "value")
+
+    def __init__(self, value: Any, seconds: float, arrays: tuple[np.ndarray, ...], used: int) -> None:
+        self.value = value
+        self.seconds = seconds
+        self.arrays = arrays
+        self.used = used
 
 
 class MemoryTier:
@@ -46,7 +54,6 @@ class MemoryTier:
         self.budget: int = budget if budget is not None else memory_budget()
         self.bytes: int = 0
         self._held: dict[bytes, _Held] = {}
-        self._used: dict[bytes, int] = {}
         self._holders: dict[int, int] = {}
         self._evicted: OrderedDict[bytes, None] = OrderedDict()
         self._clock = 0
@@ -63,8 +70,8 @@ class MemoryTier:
         held = self._held.get(key)
         if held is None:
             return MISSING
-        self._clock = self._used[key] = self._clock + 1
-        return held[0]
+        self._clock = held.used = self._clock + 1
+        return held.value
 
     def put(self, key: bytes, value: Any, seconds: float, arrays: tuple[np.ndarray, ...] = ()) -> None:
         """Keep a value that took `seconds` to compute; `arrays` are the buffers it holds (`freeze`)."""
@@ -74,8 +81,8 @@ class MemoryTier:
         with self._lock:
             if key in self._held:
                 return
-            self._held[key] = (value, seconds, arrays)
-            self._clock = self._used[key] = self._clock + 1
+            self._clock += 1
+            self._held[key] = _Held(value, seconds, arrays, self._clock)
             self.bytes += _ENTRY_BYTES
             for array in arrays:
                 holders = self._holders.get(id(array), 0)
@@ -101,7 +108,6 @@ class MemoryTier:
             for key in self._held:
                 self._note_evicted(key)
             self._held.clear()
-            self._used.clear()
             self._holders.clear()
             self.bytes = 0
         give_back_freed()
@@ -112,25 +118,21 @@ class MemoryTier:
 
     def _shrink(self, newest: bytes) -> None:
         """Drop entries, least worth first, until under the mark; the newest stays if it can."""
-        ranked = sorted(self._held, key=lambda k: (k == newest, self._worth(self._held[k]), self._used[k]))
+        ranked = sorted(self._held, key=lambda k: (k == newest, self._worth(self._held[k]), self._held[k].used))
         for key in ranked:
             if self.bytes <= self.budget * _DROP_TO:
                 break
             self._drop(key)
-        # A `get` on another thread may have noted the use of a value that was just dropped.
-        self._used = {key: self._used[key] for key in self._held}
 
     def _worth(self, held: _Held) -> float:
         """Seconds saved per byte held; those who hold an array together share its bytes.
 
         Counting a shared byte as not freed at all would keep for ever what two cheap nodes hold.
         """
-        _, seconds, arrays = held
-        return seconds / (_ENTRY_BYTES + sum(a.nbytes / self._holders[id(a)] for a in arrays))
+        return held.seconds / (_ENTRY_BYTES + sum(a.nbytes / self._holders[id(a)] for a in held.arrays))
 
     def _drop(self, key: bytes) -> None:
-        _, _, arrays = self._held.pop(key)
-        self._used.pop(key, None)
+        arrays = self._held.pop(key).arrays
         self._note_evicted(key)
         self.bytes -= _ENTRY_BYTES
         for array in arrays:

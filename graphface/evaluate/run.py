@@ -141,25 +141,24 @@ class Run:
                     self._undecided += 1
                 elif declined:
                     self._tell_declined(task, step)
-                self._await(task, demanded(step, declined)[0] if step.lazy else step.eager)
+                self._await(task, demanded(step, declined)[0])
         if self._spent and not self._undecided:
             self._let_go()
 
     def _await(self, task: Task, slots: Iterable[int]) -> None:
         """Make a task ready, or ask its rule, once every one of these slots has its value."""
         tasks, keys, values = self._tasks, self._keys, self._values
-        missing, sources = 0, []
+        missing = 0
         for slot in slots:
             source = tasks.get(keys[slot]) or self._task(slot)
             if source.failed:
                 self._stop(task, "blocked")
                 return
             source.readers += 1
-            sources.append(source)
+            task.sources.append(source)
             if source.key not in values:
                 source.waiters.append(task)
                 missing += 1
-        task.sources = (*task.sources, *sources)
         task.waiting = missing
         if not missing:
             self._proceed(task)
@@ -241,8 +240,7 @@ class Run:
         self._tiers.keep(key, step, value, seconds, arrays)
         name = self._names[task.slot]
         self._tell(Record(name, label(step), "ran", key, seconds, cpu, task.size, "", warnings), step, value)
-        if task.waiters:
-            self._arrived(task)
+        self._arrived(task)
         for source in task.sources:
             source.readers -= 1
             if source.heavy and not source.readers:

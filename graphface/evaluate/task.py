@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from graphface.graph.keys import Declined
 from graphface.graph.structure import Step
 
@@ -16,19 +14,32 @@ class Task:
     rule cannot be asked. `heavy` where letting go of its value frees memory.
     """
 
-    waiting = 0
-    sources: Sequence[Task] = ()
-    readers = 0
-    declined: Declined | None = None
-    failed = False
-    heavy = False
-    size = 0
+    __slots__ = (
+        "declined",
+        "failed",
+        "heavy",
+        "key",
+        "readers",
+        "size",
+        "slot",
+        "sources",
+        "step",
+        "waiters",
+        "waiting",
+    )
 
     def __init__(self, key: bytes, slot: int, step: Step | None) -> None:
-        self.key = key
-        self.slot = slot
-        self.step = step
+        self.key: bytes = key
+        self.slot: int = slot
+        self.step: Step | None = step
+        self.waiting: int = 0
         self.waiters: list[Task] = []
+        self.sources: list[Task] = []
+        self.readers: int = 0
+        self.declined: Declined | None = None
+        self.failed: bool = False
+        self.heavy: bool = False
+        self.size: int = 0
 
 
 def label(step: Step | None) -> str:

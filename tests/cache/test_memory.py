@@ -97,7 +97,7 @@ class TestBudget:
                 tier.get(key(number))
             tier.put(key(number), held, seconds, held)
             assert tier.bytes <= tier.budget
-            alive = {id(a): a.nbytes for _, _, arrays in tier._held.values() for a in arrays}
+            alive = {id(a): a.nbytes for held in tier._held.values() for a in held.arrays}
             assert tier.bytes == sum(alive.values()) + 200 * len(tier)
 
 
@@ -230,5 +230,8 @@ class TestThreads:
             thread.start()
         for thread in threads:
             thread.join()
-        held = sum(a.nbytes for _, _, arrays in tier._held.values() for a in arrays)
-        assert tier.bytes == held + 200 * len(tier) <= tier.budget
+        assert (
+            tier.bytes
+            == sum(v.nbytes for held in tier._held.values() for v in held.arrays) + 200 * len(tier)
+            <= tier.budget
+        )
