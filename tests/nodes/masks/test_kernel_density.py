@@ -82,11 +82,13 @@ class TestKernelDensity:
         rng = np.random.default_rng(seed)
         values = rng.uniform(0.2, 0.8, (12, 12, 3)).astype(np.float32)
         weights = rng.uniform(0, 1, 144).astype(np.float32)
-        noise = rng.uniform(-1, 1, values.shape).astype(np.float32)
+        noises = rng.uniform(-1, 1, (8, *values.shape)).astype(np.float32)
         before = KernelDensity(values).log_density(weights, pseudo_count=5.0)
         moved = [
-            np.abs(KernelDensity(values + s * noise).log_density(weights, pseudo_count=5.0) - before).mean()
+            np.mean(
+                [np.abs(KernelDensity(values + s * n).log_density(weights, pseudo_count=5.0) - before) for n in noises]
+            )
             for s in (1e-2, 1e-3)
         ]
         assert moved[0] < 0.2
-        assert moved[1] == pytest.approx(moved[0] / 10, rel=0.5)
+        assert moved[1] == pytest.approx(moved[0] / 10, rel=0.3)
