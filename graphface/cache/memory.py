@@ -27,16 +27,11 @@ _GIVE_BACK_BYTES = 64 << 20
 """An eviction is given back to the system where it frees this share of the budget, and so many bytes."""
 
 
-class _Held:
-    """A value with what it took to compute, the buffers it holds, and when it was last used."""
+_Held = list[Any]
+_VALUE, _SECONDS, _ARRAYS, _USED = range(4)
+"""An entry: the value, the seconds it took to compute, the buffers it holds, when it was last used.
 
-    __slots__ = ("arrays", "seconds", "used", "value")
-
-    def __init__(self, value: Any, seconds: float, arrays: tuple[np.ndarray, ...], used: int) -> None:
-        self.value = value
-        self.seconds = seconds
-        self.arrays = arrays
-        self.used = used
+A list, since most values are numbers, and making an object would cost more than all the rest of keeping one."""
 
 
 class MemoryTier:
@@ -52,7 +47,7 @@ class MemoryTier:
 
     def __init__(self, budget: int | None = None) -> None:
         self.budget: int = budget if budget is not None else memory_budget()
-        self.bytes: int = 0
+        self._array_bytes = 0
         self._held: dict[bytes, _Held] = {}
         self._holders: dict[int, int] = {}
         self._evicted: OrderedDict[bytes, None] = OrderedDict()
@@ -62,6 +57,11 @@ class MemoryTier:
     def __len__(self) -> int:
         return len(self._held)
 
+    @property
+    def held_bytes(self) -> int:
+        """What is held: the buffers, each once, and a little for every entry."""
+        return self._array_bytes + _ENTRY_BYTES * len(self._held)
+
     def __contains__(self, key: bytes) -> bool:
         return key in self._held
 
@@ -70,31 +70,21 @@ class MemoryTier:
         held = self._held.get(key)
         if held is None:
             return MISSING
-        self._clock = held.used = self._clock + 1
-        return held.value
+        self._clock = held[_USED] = self._clock + 1
+        return held[_VALUE]
 
     def put(self, key: bytes, value: Any, seconds: float, arrays: tuple[np.ndarray, ...] = ()) -> None:
         """Keep a value that took `seconds` to compute; `arrays` are the buffers it holds (`freeze`)."""
-        if arrays and sum(a.nbytes for a in arrays) > self.budget:
-            return
-        freed = 0
-        with self._lock:
-            if key in self._held:
-                return
-            self._clock += 1
-            self._held[key] = _Held(value, seconds, arrays, self._clock)
-            self.bytes += _ENTRY_BYTES
-            for array in arrays:
-                holders = self._holders.get(id(array), 0)
-                self._holders[id(array)] = holders + 1
-                if not holders:
-                    self.bytes += array.nbytes
-            if self.bytes > self.budget:
-                before = self.bytes
-                self._shrink(key)
-                freed = before - self.bytes
-        if freed > max(_GIVE_BACK_BYTES, self.budget * _GIVE_BACK_SHARE):
-            give_back_freed()
+        self._clock = used = self._clock + 1
+        if not arrays:  # one dictionary operation, which needs no lock
+            self._held.setdefault(key, [value, seconds, arrays, used])
+        elif sum(a.nbytes for a in arrays) <= self.budget:
+            with self._lock:
+                if key not in self._held:
+                    self._held[key] = [value, seconds, arrays, used]
+                    self._count(arrays)
+        if self._array_bytes + _ENTRY_BYTES * len(self._held) > self.budget:
+            self._make_room(key)
 
     def drop(self, key: bytes) -> None:
         """Forget a value, if it is held."""
@@ -105,41 +95,51 @@ class MemoryTier:
     def clear(self) -> None:
         """Forget everything, and give the memory back to the system where that is possible."""
         with self._lock:
-            for key in self._held:
+            for key in list(self._held):
                 self._note_evicted(key)
             self._held.clear()
             self._holders.clear()
-            self.bytes = 0
+            self._array_bytes = 0
         give_back_freed()
 
     def was_evicted(self, key: bytes) -> bool:
         """Whether the value was held and had to go; the last few thousand evictions are known."""
         return key in self._evicted
 
-    def _shrink(self, newest: bytes) -> None:
+    def _count(self, arrays: tuple[np.ndarray, ...]) -> None:
+        for array in arrays:
+            holders = self._holders.get(id(array), 0)
+            self._holders[id(array)] = holders + 1
+            if not holders:
+                self._array_bytes += array.nbytes
+
+    def _make_room(self, newest: bytes) -> None:
         """Drop entries, least worth first, until under the mark; the newest stays if it can."""
-        ranked = sorted(self._held, key=lambda k: (k == newest, self._worth(self._held[k]), self._held[k].used))
-        for key in ranked:
-            if self.bytes <= self.budget * _DROP_TO:
-                break
-            self._drop(key)
+        with self._lock:
+            before, held = self.held_bytes, dict(self._held)
+            for key in sorted(held, key=lambda k: (k == newest, self._worth(held[k]), held[k][_USED])):
+                if self.held_bytes <= self.budget * _DROP_TO:
+                    break
+                self._drop(key)
+            freed = before - self.held_bytes
+        if freed > max(_GIVE_BACK_BYTES, self.budget * _GIVE_BACK_SHARE):
+            give_back_freed()
 
     def _worth(self, held: _Held) -> float:
         """Seconds saved per byte held; those who hold an array together share its bytes.
 
         Counting a shared byte as not freed at all would keep for ever what two cheap nodes hold.
         """
-        return held.seconds / (_ENTRY_BYTES + sum(a.nbytes / self._holders[id(a)] for a in held.arrays))
+        return held[_SECONDS] / (_ENTRY_BYTES + sum(a.nbytes / self._holders[id(a)] for a in held[_ARRAYS]))  # type: ignore[no-any-return]
 
     def _drop(self, key: bytes) -> None:
-        arrays = self._held.pop(key).arrays
+        arrays = self._held.pop(key)[_ARRAYS]
         self._note_evicted(key)
-        self.bytes -= _ENTRY_BYTES
         for array in arrays:
             self._holders[id(array)] -= 1
             if self._holders[id(array)] == 0:
                 del self._holders[id(array)]
-                self.bytes -= array.nbytes
+                self._array_bytes -= array.nbytes
 
     def _note_evicted(self, key: bytes) -> None:
         self._evicted[key] = None

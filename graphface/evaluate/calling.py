@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, MutableMapping
+from math import isfinite
 from typing import Any, Literal
 
 from graphface import fallback
@@ -110,14 +111,15 @@ class Caller:
             arguments = {**step.absent, **plugged}
         operator = step.operator
         try:
-            value = operator.function(**arguments, **step.parameters)
+            given = {**arguments, **step.parameters} if step.parameters else arguments
+            value = operator.function(**given)
         except Exception as error:
             raise self.error(step, error, arguments) from error
         if type(value) not in operator.plain_outputs:
             problem = operator.output.problem(value)
             if problem is not None:
                 raise self.error(step, TypeError(f"returned something else: {problem}"), arguments)
-        if self._guard != "off":
+        if self._guard != "off" and not (type(value) is float and isfinite(value)):
             found = first_non_finite(value, self._finite)
             if found is not None:
                 self._not_finite(step, found, arguments)

@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -24,18 +25,31 @@ from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value
 from graphface.values.files import FilesOf, Reader
 from graphface.values.frozen import buffer_of, freeze, with_arrays
+from graphface.values.parts import SCALARS
 from graphface.values.port_types import ArrayType, PortType
+
+_NONE = object()
+_NOTHING: Mapping[str, Bound] = MappingProxyType({})
 
 
 @dataclass(eq=False)
 class Bound:
-    """One graph input with what was given for it."""
+    """One graph input with what was given for it.
+
+    Attributes:
+        number: the number or text that was given, if it was one: given again, the same object has the same digest.
+    """
 
     name: str
     digest: bytes
     origin: str
     load: Callable[[], Any] = field(repr=False)
     is_file: bool = False
+    number: object = field(default=_NONE, repr=False)
+
+    @property
+    def is_number(self) -> bool:
+        return self.number is not _NONE
 
     @cached_property
     def value(self) -> Any:
@@ -56,6 +70,7 @@ def bind(
     *,
     roots: Sequence[Path] = (),
     stat_shortcut: bool = True,
+    before: Mapping[str, Bound] = _NOTHING,
 ) -> dict[str, Bound]:
     """Bind every input of a graph to what was given, or to its default.
 
@@ -65,6 +80,7 @@ def bind(
         files_of: how types are read from files.
         roots: folders in which relative paths are looked for: default files there only, given ones there at last.
         stat_shortcut: trust size and modification time of a file hashed before.
+        before: what was bound earlier; numbers in it that are given again are not hashed again.
 
     Raises:
         InputError: an unknown input, or a value of the wrong type.
@@ -76,14 +92,15 @@ def bind(
             raise InputError(
                 name, f"the graph has no such input (it has {', '.join(inputs) or 'none'})", nearest_names(name, inputs)
             )
-    bound = {
-        name: _bind_one(entry, given, files_of, roots, stat_shortcut)
-        for name, entry in inputs.items()
-        if _has_value(entry, given)
-    }
-    for name in bound:
-        if _is_model(inputs[name].type):
-            bound[name].value  # noqa: B018 - reads it
+    bound = {}
+    for name, entry in inputs.items():
+        known = before.get(name)
+        if known is not None and known.number is given.get(name, _NONE):
+            bound[name] = known
+        elif _has_value(entry, given):
+            bound[name] = _bind_one(entry, given, files_of, roots, stat_shortcut)
+            if _is_model(entry.type):
+                bound[name].value  # noqa: B018 - reads it
     return bound
 
 
@@ -154,7 +171,8 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
         except (ValueError, TypeError) as error:
             raise InputError(entry.name, str(error)) from None
 
-    return Bound(entry.name, digest, type(value).__name__, load)
+    number = value if type(value) in SCALARS else _NONE
+    return Bound(entry.name, digest, type(value).__name__, load, number=number)
 
 
 def _own(array: np.ndarray) -> np.ndarray:

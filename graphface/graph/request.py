@@ -60,13 +60,15 @@ def request(
         InputError, UnreadableFile: an input does not fit, or an output is not there.
     """
     targets = graph.targets(outputs)
-    by_name = graph.bind(inputs)
+    keys, numbers = _latest.get(graph, (None, None))
+    by_name = graph.bind(inputs, before=numbers)
     bound = tuple(by_name.get(name) for name in graph.inputs)
     digests = [b.digest if b is not None else b"missing" for b in bound]
-    keys = graph.recipe.keys(digests, lambda step: declined_before(step, bound), _latest.get(graph))
-    _latest[graph] = keys
+    keys = graph.recipe.keys(digests, lambda step: declined_before(step, bound), keys)
+    _latest[graph] = keys, {name: b for name, b in by_name.items() if b.is_number}
     return Request(graph, bound, targets, keys)
 
 
-_latest: WeakKeyDictionary[WiredGraph, Keys] = WeakKeyDictionary()
-"""The keys that were last made for each graph, from which the next ones are made faster; see `graphface.graph.keys`."""
+_latest: WeakKeyDictionary[WiredGraph, tuple[Keys, dict[str, Bound]]] = WeakKeyDictionary()
+"""The keys that were last made for each graph and the numbers among its inputs, from which the next keys are made
+faster (`graphface.graph.keys`). No picture is among them: nothing but its owner and the tiers keeps one alive."""

@@ -66,9 +66,12 @@ class WiredGraph:
         first = len(self.inputs)
         return self.steps[slot - first] if slot >= first else None
 
-    def bind(self, given: Mapping[str, Any], *, stat_shortcut: bool = True) -> dict[str, Bound]:
+    def bind(
+        self, given: Mapping[str, Any], *, stat_shortcut: bool = True, before: Mapping[str, Bound] | None = None
+    ) -> dict[str, Bound]:
         """Graph inputs with their digests; see `graphface.graph.inputs.bind`."""
-        return bind(self.inputs, given, self.registry.files, roots=self._default_roots, stat_shortcut=stat_shortcut)
+        files, roots = self.registry.files, self._default_roots
+        return bind(self.inputs, given, files, roots=roots, stat_shortcut=stat_shortcut, before=before or {})
 
     def targets(self, outputs: Iterable[str] | None = None) -> dict[str, Ref]:
         """What is asked for, as slots.

@@ -16,7 +16,7 @@ import hashlib
 import os
 import struct
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from enum import Enum
 from pathlib import Path, PurePath
 from typing import Any, Protocol
@@ -165,35 +165,25 @@ def _write_root(value: object, emit: _Emit, *, strict: bool) -> None:
 
 def _write(value: Any, emit: _Emit, strict: bool) -> None:
     """Emit the encoding of `value`: one tag, then what makes the rest self-delimiting."""
-    rule = rule_of(type(value))
-    if rule is not None:
-        _write_parts(value, rule, emit, strict)
-    elif value is None:
-        emit(b"N")
-    elif isinstance(value, Enum):
-        _text(b"e", f"{_name(type(value))}.{value.name}", emit)
-    elif isinstance(value, bool | np.bool_):
-        emit(b"T" if value else b"F")
-    elif isinstance(value, str):
+    kind = type(value)
+    if kind is float and strict:
+        emit(b"f" + (b"nan-nan-" if value != value else struct.pack("<d", value)))
+    elif kind is str:
         _text(b"s", value, emit)
-    elif isinstance(value, np.generic) and strict:
-        _text(b"g", value.dtype.str, emit)
-        _sized(b"b", value.tobytes(), emit)
-    elif isinstance(value, int | np.integer | float | np.floating | complex):
-        _write_number(value, emit, strict)
-    elif isinstance(value, bytes | bytearray | memoryview):
-        _sized(b"b", bytes(value), emit)
-    elif isinstance(value, np.ndarray):
-        _write_array(value, emit)
-    elif isinstance(value, PurePath):
-        _text(b"p", str(value), emit)
-        if strict and os.path.isfile(value):
-            emit(b"+" + digest_file(Path(value)))
-    elif value is ...:
-        emit(b".")
+    elif (rule := rule_of(kind)) is not None:
+        _write_parts(value, rule, emit, strict)
     else:
-        hint = "pass plain values, arrays, dataclasses or pydantic models, or say its parts with register_parts"
-        raise Undigestible(type(value), hint)
+        _write_whole(value, emit, strict)
+
+
+def _write_whole(value: Any, emit: _Emit, strict: bool) -> None:
+    """Emit the encoding of a value that has no parts."""
+    for kinds, write in _STRICT if strict else _LOOSE:
+        if isinstance(value, kinds):
+            write(value, emit, strict)
+            return
+    hint = "pass plain values, arrays, dataclasses or pydantic models, or say its parts with register_parts"
+    raise Undigestible(type(value), hint)
 
 
 def _write_parts(value: Any, rule: Rule, emit: _Emit, strict: bool) -> None:
@@ -214,6 +204,17 @@ def _write_parts(value: Any, rule: Rule, emit: _Emit, strict: bool) -> None:
         _write_pairs(rule.items(value), emit, strict)
 
 
+def _write_generic(value: Any, emit: _Emit, strict: bool) -> None:
+    _text(b"g", value.dtype.str, emit)
+    _sized(b"b", value.tobytes(), emit)
+
+
+def _write_path(value: PurePath, emit: _Emit, strict: bool) -> None:
+    _text(b"p", str(value), emit)
+    if strict and os.path.isfile(value):
+        emit(b"+" + digest_file(Path(value)))
+
+
 def _write_number(value: Any, emit: _Emit, strict: bool) -> None:
     if isinstance(value, complex):
         emit(b"c")
@@ -227,7 +228,7 @@ def _write_number(value: Any, emit: _Emit, strict: bool) -> None:
         emit(b"f" + (b"nan-nan-" if value != value else struct.pack("<d", value)))
 
 
-def _write_array(array: Any, emit: _Emit) -> None:
+def _write_array(array: Any, emit: _Emit, strict: bool) -> None:
     if array.dtype.hasobject:
         raise Undigestible(type(array), "an object array holds references, not content; give it a numeric dtype")
     if isinstance(array, np.ma.MaskedArray):
@@ -236,6 +237,23 @@ def _write_array(array: Any, emit: _Emit) -> None:
     _text(b"a", f"{layout} {array.shape}", emit)
     # `view` drops the dtype, which memoryview may not know (float16, datetime64).
     emit(np.ascontiguousarray(array).reshape(-1).view(np.uint8).data if array.size else b"")
+
+
+_LOOSE: Sequence[tuple[Any, Callable[[Any, _Emit, bool], object]]] = (
+    (type(None), lambda value, emit, strict: emit(b"N")),
+    (Enum, lambda value, emit, strict: _text(b"e", f"{_name(type(value))}.{value.name}", emit)),
+    ((bool, np.bool_), lambda value, emit, strict: emit(b"T" if value else b"F")),
+    (str, lambda value, emit, strict: _text(b"s", value, emit)),
+    ((int, np.integer, float, np.floating, complex), _write_number),
+    ((bytes, bytearray, memoryview), lambda value, emit, strict: _sized(b"b", bytes(value), emit)),
+    (np.ndarray, _write_array),
+    (PurePath, _write_path),
+    (type(...), lambda value, emit, strict: emit(b".")),
+)
+"""How values without parts are written; the first of the classes that a value is an instance of counts."""
+
+_STRICT = (*_LOOSE[:4], (np.generic, _write_generic), *_LOOSE[4:])
+"""The dtype of a NumPy scalar counts in an input, not in a parameter."""
 
 
 def _write_pairs(pairs: Iterable[tuple[Any, Any]], emit: _Emit, strict: bool) -> None:

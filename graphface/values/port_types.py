@@ -21,6 +21,7 @@ import types
 import typing
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, is_dataclass
+from functools import cached_property
 from typing import Annotated, Any, TypeVar
 
 T = TypeVar("T")
@@ -101,6 +102,10 @@ class PortType:
     optional: bool = False
 
     def __str__(self) -> str:
+        return self._text
+
+    @cached_property
+    def _text(self) -> str:
         names = [_atom_name(a) for a in self.alternatives]
         return " | ".join(names + ["None"] * (self.optional and object not in self.alternatives))
 

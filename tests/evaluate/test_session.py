@@ -129,7 +129,7 @@ class TestHistory:
     def test_older_states_are_forgotten(self, relight):
         """Hours of edits hold no more memory than a few, and what no edit reaches is never lost."""
         few, many = self.edits(relight, 4, history=2), self.edits(relight, 40, history=2)
-        assert many.evaluator.memory.bytes == few.evaluator.memory.bytes
+        assert many.evaluator.memory.held_bytes == few.evaluator.memory.held_bytes
         many.edit(other=picture(0.9))
         assert "a" not in ran(many.render())
 

@@ -16,7 +16,7 @@ from graphface.fingerprint.syntax import syntax
 
 GUARDED = {
     # arguments and parameters
-    "graphface.evaluate.calling:Caller._call": "82b83292f35c",
+    "graphface.evaluate.calling:Caller._call": "e825802ca0d6",
     "graphface.evaluate.calling:Caller.argument": "d2643b67e89d",
     "graphface.graph.demand:take": "e7ac4f2ed25a",
     "graphface.node:Operator.cosmetic": "c4976becc8e0",
@@ -26,7 +26,7 @@ GUARDED = {
     "graphface.graph.wiring:_Wirer._validate": "46a411889fc1",
     # given values
     "graphface.graph.inputs:_bind_file": "f8eb11b235cf",
-    "graphface.graph.inputs:_bind_object": "d53b87ae1751",
+    "graphface.graph.inputs:_bind_object": "107b97da5471",
     "graphface.graph.inputs:_from_text": "e0e303043794",
     "graphface.graph.inputs:_own": "7c42d5152225",
     "graphface.values.port_types:PortType.coerce": "d82125ab228b",
@@ -35,7 +35,7 @@ GUARDED = {
     "graphface.values.parts": "c3554acb3858",
     "graphface.values.codec": "f27e20f3b041",
     # keys
-    "graphface.values.digest": "479ba675fc07",
+    "graphface.values.digest": "f657f3225d49",
     "graphface.graph.keys": "42de74559c6a",
 }
 

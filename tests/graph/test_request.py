@@ -5,6 +5,7 @@ import pytest
 
 from graphface import Graph, Registry, load
 from graphface.errors import InputError
+from graphface.values.digest import digest_value
 
 TEXT = """graphface: 1
 name: sums
@@ -49,3 +50,25 @@ class TestRequests:
     def test_type(self, graph: Graph) -> None:
         """The type behind a target is known before running."""
         assert str(graph.type_of(graph.targets(["p.high"])["p.high"])) == "Grid | None"
+
+
+class TestNumbersGivenAgain:
+    @pytest.mark.parametrize(("one", "other"), [(0.0, -0.0), (1, 1.0), (1.0, 2.0)])
+    def test_never_taken_for_another(self, graph: Graph, one: object, other: object) -> None:
+        """A number is recognised by being the same object: equal ones of another type or sign have their own keys."""
+        keys = [graph.request({"x": x}, ["y"]).key(0) for x in (one, other, one, other)]
+        assert keys[0] == keys[2] != keys[1] == keys[3]
+
+    def test_not_hashed_again(self, graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+        """The same number again costs no hash; an array is looked at every time, since its owner may write to it."""
+        hashed: list[object] = []
+        monkeypatch.setattr("graphface.graph.inputs.digest_value", lambda v: (hashed.append(v), digest_value(v))[1])
+        number, grid = 12345.678, np.ones((2, 2))
+        graph.request({"x": number, "g": grid})
+        assert len(hashed) == 2
+        graph.request({"x": number, "g": grid})
+        assert len(hashed) == 3
+
+    def test_default_after_number(self, graph: Graph) -> None:
+        """An input that is left out has its default again."""
+        assert [graph.run("y", **given)["y"] for given in ({"x": 5.0}, {}, {"x": 5.0})] == [6, 3, 6]
