@@ -28,6 +28,8 @@ from graphface.values.port_types import array_of
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
+    from graphface.values.picture import Draw
+
 T = TypeVar("T")
 ENTRY_POINTS = "graphface.nodes"
 
@@ -43,6 +45,8 @@ class Pack:
         types: name used in graph files to "module:attribute".
         files: name in `types` to "module:attribute" of a `graphface.Files`, or of a table from types to such. The name
             in `types`, or the attribute there, must be that of the class or array type.
+        pictures: name in `types` to "module:attribute" of a function that draws it (`graphface.values.picture`),
+            or of a table from types to such.
         graphs: the package whose folder holds shipped graph files.
         assets: "module:attribute" of tuples of `graphface.Asset`, the files that its operators fetch, separated by
             spaces.
@@ -56,6 +60,7 @@ class Pack:
     operators: Mapping[str, str]
     types: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, str] = field(default_factory=dict)
+    pictures: Mapping[str, str] = field(default_factory=dict)
     graphs: str = ""
     assets: str = ""
     formerly: Mapping[str, str] = field(default_factory=dict)
@@ -109,6 +114,11 @@ def files_in(module: ModuleType) -> dict[Any, Files]:
     return getattr(module, "FILES", {})
 
 
+def pictures_in(module: ModuleType) -> dict[Any, Draw]:
+    """How a module says that values of its types are drawn: `PICTURES`, a table from types to functions."""
+    return getattr(module, "PICTURES", {})
+
+
 def import_file(path: Path) -> ModuleType:
     """A plug-in file as a module.
 
@@ -144,5 +154,6 @@ def _as_pack(named: object) -> Pack:
         operators={operator.family: named.__name__ for operator in operators.values()},
         types={name: f"{named.__name__}:{name}" for name in types},
         files={name: f"{named.__name__}:FILES" for name, kind in types.items() if kind in files_in(named)},
+        pictures={name: f"{named.__name__}:PICTURES" for name, kind in types.items() if kind in pictures_in(named)},
         formerly={old: operator.name for operator in operators.values() for old in operator.formerly},
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -14,12 +14,23 @@ from typing import TYPE_CHECKING, Any
 from graphface.errors import DeclarationError, PluginError, UnknownOperator, UnknownType
 from graphface.fallback import warn
 from graphface.node import Operator, operator_of
-from graphface.packs import Pack, files_in, import_failure, import_file, installed_packs, operators_in, types_in
+from graphface.packs import (
+    Pack,
+    files_in,
+    import_failure,
+    import_file,
+    installed_packs,
+    operators_in,
+    pictures_in,
+    types_in,
+)
+from graphface.type_table import TypeTable
 from graphface.values.files import Files
-from graphface.values.port_types import ANY, ArrayType, Atom, ListOf, PortType, lineage, port_type
+from graphface.values.port_types import ANY, Atom, ListOf, PortType, port_type
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
+    from graphface.values.picture import Draw
 
 _MAX_LISTS = 8
 _BUILTIN_TYPES: dict[str, Any] = {"Any": object, "int": int, "float": float, "str": str, "bool": bool, "Path": Path}
@@ -34,8 +45,8 @@ class Registry:
         self._added_types: dict[str, Any] = {}
         self._loaded: dict[str, dict[str, Operator]] = {}
         self._broken: dict[str, str] = {}
-        self._added_files: dict[Atom, Files] = {}
-        self._files: dict[Atom, Files | None] = {}
+        self._files: TypeTable[Files] = TypeTable(self._packs, lambda pack: pack.files, self._attribute)
+        self._pictures: TypeTable[Draw] = TypeTable(self._packs, lambda pack: pack.pictures, self._attribute)
 
     def add(self, function: object) -> None:
         """Register one `@node` function (a notebook's own, say); a later one of the same name replaces it."""
@@ -46,11 +57,14 @@ class Registry:
 
     def add_files(self, kind: Any, files: Files) -> None:
         """Say how values of a class, or of an array type, are read from and written to files."""
-        self._added_files |= dict.fromkeys(port_type(kind).alternatives, files)
-        self._files.clear()
+        self._files.add(kind, files)
+
+    def add_picture(self, kind: Any, draw: Draw) -> None:
+        """Say how values of a class, or of an array type, are drawn."""
+        self._pictures.add(kind, draw)
 
     def add_file(self, path: Path) -> list[str]:
-        """Execute a plug-in file and register every operator, type and `FILES` it declares; the operators' names.
+        """Execute a plug-in file and register its operators, types, `FILES` and `PICTURES`; the operators' names.
 
         Raises:
             PluginError: the file is missing, fails to import, or declares no operator.
@@ -63,6 +77,8 @@ class Registry:
         self._added_types |= types_in(module)
         for kind, files in files_in(module).items():
             self.add_files(kind, files)
+        for kind, draw in pictures_in(module).items():
+            self.add_picture(kind, draw)
         return sorted(operators)
 
     def operator(self, name: str) -> Operator:
@@ -132,7 +148,8 @@ class Registry:
         """A registry with everything of this one, to which more can be added without changing this one."""
         other = Registry(self._packs)
         other._added, other._added_types = dict(self._added), dict(self._added_types)
-        other._added_files = dict(self._added_files)
+        other._files.add_all(self._files)
+        other._pictures.add_all(self._pictures)
         other._loaded, other._broken = self._loaded, self._broken
         return other
 
@@ -162,34 +179,17 @@ class Registry:
         """
         if isinstance(kind, PortType):
             return next((files for atom in kind.alternatives if (files := self.files(atom)) is not None), None)
-        if kind not in self._files:
-            own = ((base, self._own_files(base)) for base in lineage(kind))
-            base, found = next(((base, files) for base, files in own if files is not None), (kind, None))
-            self._files[kind] = found if found is None or base is kind else replace(found, read=None)
-        return self._files[kind]
+        found = self._files.nearest(kind)
+        return found and (found[1] if found[0] is kind else replace(found[1], read=None))
 
     def all_files(self) -> list[Files]:
         """The files of every type that has any."""
-        named = [self._named_files(pack, name) for pack in self._packs for name in pack.files]
-        return [*self._added_files.values(), *(files for files in named if files is not None)]
+        return list(self._files.all())
 
-    def _own_files(self, atom: Atom) -> Files | None:
-        """The files of just this type. Only a type of the same name is imported to see whether it is this one."""
-        if atom in self._added_files:
-            return self._added_files[atom]
-        own_name = atom.name if isinstance(atom, ArrayType) else getattr(atom, "__name__", "")
-        for pack in self._packs:
-            for name in pack.files:
-                where = pack.types.get(name, "")
-                named = self._attribute(where) if own_name in (name, where.partition(":")[2]) else None
-                if named is not None and atom in port_type(named).alternatives:
-                    return self._named_files(pack, name)
-        return None
-
-    def _named_files(self, pack: Pack, name: str) -> Files | None:
-        """The files that a pack names for one of its types, alone or in a table of several types."""
-        found = self._attribute(pack.files[name])
-        return found.get(self._attribute(pack.types[name])) if isinstance(found, Mapping) else found
+    def draw(self, kind: Atom) -> Draw | None:
+        """How values of a type are drawn, as its nearest base class or parent says; None where nobody says."""
+        found = self._pictures.nearest(kind)
+        return found and found[1]
 
     def schemas(self) -> dict[str, Any]:
         """Kinds of files to what describes them: pydantic models, and functions that return a JSON Schema."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -26,6 +26,7 @@ from graphface.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from graphface.cli.following import Follower
     from graphface.evaluate.evaluator import Evaluator
     from graphface.evaluate.observe import Observer
     from graphface.facade import Graph
@@ -67,6 +68,7 @@ def run(
     import os
 
     from graphface.cache.memory import MemoryTier
+    from graphface.cli.following import TraceFile
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_times, print_warnings
     from graphface.settings import memory_budget
@@ -86,7 +88,8 @@ def run(
         if maps:
             run_map(loaded, output, given, maps, evaluator, records)
         else:
-            records += run_once(loaded, output, given, evaluator, history=cache, trace=trace, peaks=peaks)
+            followers = [TraceFile(trace, peaks=peaks)] if trace is not None else []
+            records += run_once(loaded, output, given, evaluator, followers, history=cache)
     finally:
         print_warnings([*(f"{r.name}: {w}" for r in records for w in r.warnings), *said])
         if times and records:
@@ -112,20 +115,20 @@ def run_once(
     output: list[str],
     given: dict[str, str],
     evaluator: Evaluator,
+    followers: Sequence[Follower],
     *,
     history: Path | None,
-    trace: Path | None,
-    peaks: bool,
 ) -> list[Record]:
     """One run, its outputs written when all of them are there; what became of every node.
 
     Args:
+        followers: what is written beside the outputs, also where the run fails.
         history: the cache folder, beside which the run is remembered.
     """
+    from graphface.cli.following import written
     from graphface.report.history import History, Remember
     from graphface.report.terminal import ProgressBar
-    from graphface.report.trace import Trace
-    from graphface.values.writing import check_folder, check_output, write_output
+    from graphface.values.writing import check_output, write_output
 
     files = output_files(graph, output, given)
     asked = graph.request(given, files)
@@ -133,20 +136,11 @@ def run_once(
     for name, path in files.items():
         check_output(path, types[name], graph.registry.files)
     _check_kept(files.values(), given.values())
-    if trace is not None:
-        check_folder(trace)
-    tracer = Trace(peaks=peaks)
-    with ProgressBar() as bar:
-        observers: list[Observer] = [bar]
-        if trace is not None:
-            observers.append(tracer)
+    with ProgressBar() as bar, written(followers):
+        observers: list[Observer] = [bar, *followers]
         if evaluator.disk is not None:
             observers.append(Remember(History.beside(history), evaluator.disk))
-        try:
-            result = evaluator.run(asked, observers)
-        finally:
-            if trace is not None:
-                tracer.write(trace)
+        result = evaluator.run(asked, observers)
     for name, path in files.items():
         write_output(result[name], types[name], path, graph.registry.files, text=graph.provenance())
     return result.records

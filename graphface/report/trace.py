@@ -93,7 +93,7 @@ class Trace(Observer):
             "nodes": [self._node(record) for record in self.records],
         }
 
-    def write(self, path: Path) -> None:
+    def write_to(self, path: Path) -> None:
         """Write `as_json` to a file, whole or not at all.
 
         Raises:

@@ -147,7 +147,7 @@ class TestFile:
         graph = load(TEXT, registry=registry)
         trace = Trace()
         Evaluator().run(graph.request({"x": 1.0}, ["a"]), [trace])
-        trace.write(tmp_path / "run.json")
+        trace.write_to(tmp_path / "run.json")
         assert json.loads((tmp_path / "run.json").read_text()) == trace.as_json()
 
     def test_no_folder(self, tmp_path: Path, registry: Registry) -> None:
@@ -155,7 +155,7 @@ class TestFile:
         trace = Trace()
         Evaluator().run(load(TEXT, registry=registry).request({"x": 1.0}, ["a"]), [trace])
         with pytest.raises(UnwritableFile):
-            trace.write(tmp_path / "nowhere" / "run.json")
+            trace.write_to(tmp_path / "nowhere" / "run.json")
 
 
 PLUGIN = """\
