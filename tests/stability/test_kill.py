@@ -114,7 +114,8 @@ class Slow:
 
     def start(self, *flags: str) -> subprocess.Popen[str]:
         # A shell starts what it runs in the background, these tests perhaps, with SIGINT ignored.
-        code = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); import graphface.cli as g; g.main()"
+        heard = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+        code = f"{heard}; from graphface.cli import main; main()"
         command = [sys.executable, "-c", code, "run", f"{self.folder}/slow.yaml"]
         command += ["--plugin", f"{self.folder}/slow.py", "--cache", f"{self.folder}/cache"]
         command += ["--trace", f"{self.folder}/run.json", "-o", f"last={self.folder}/last.npy", *flags]
