@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 
 from graphface.graph.structure import GraphInput, Ref, Step, field_type
 from graphface.graph.wired import WiredGraph
@@ -154,8 +155,8 @@ def _outputs(graph: WiredGraph, slot: int, taken: Sequence[tuple[str, ...]]) -> 
 def _of_input(
     given: GraphInput, outputs: Sequence[Port], results: Sequence[str], mark: Mark | None, thumbnail: str
 ) -> Node:
-    words = "input, has a default" if given.default is not None else "input"
-    words = "input, optional" if given.type.optional and given.default is None else words
+    optional = "optional input" if given.type.optional else "input"
+    words = "input with default" if given.default is not None else optional
     return Node(given.name, words, "", given.doc, (), outputs, results, mark, thumbnail, 0, 0)
 
 
@@ -193,7 +194,7 @@ def _sized(node: Node) -> Node:
     width = max(_NARROWEST, min(max(widths), _WIDEST))
     if node.thumbnail:
         width = max(width, 150.0)
-    return replace(node, width=float(round(width)), height=height)
+    return replace(node, width=float(ceil(width)), height=height)
 
 
 def _cords(

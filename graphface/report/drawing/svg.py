@@ -32,7 +32,7 @@ from graphface.report.drawing.layout import layout
 from graphface.report.drawing.marks import Mark
 from graphface.report.drawing.palette import heat_color, hue
 from graphface.report.drawing.style import style
-from graphface.report.drawing.text_width import fitted
+from graphface.report.drawing.text_width import fitted, text_width
 
 FRAME_SIZE = 12.0
 
@@ -87,12 +87,12 @@ def _allowed(character: str) -> bool:
 def _frame(frame: str, rect: Rect, is_folded: bool, drawn: Figure) -> str:
     inside = sum(node.name.startswith(f"{frame}/") for node in drawn.nodes)
     title = fitted(frame.rpartition("/")[2], rect.width - 2 * INSET, FRAME_SIZE, bold=True)
-    count = f'<text class="small" x="{INSET:g}" y="40">{inside} boxes</text>' if is_folded else ""
     return (
         f'<g class="frame{" folded" if is_folded else ""}" data-frame="{escape(frame)}" '
         f'transform="translate({rect.x:g} {rect.y:g})"><title>{escape(frame)}: {inside} boxes</title>'
         f'<rect width="{rect.width:g}" height="{rect.height:g}" rx="8"/>'
-        f'<text class="name" x="{INSET:g}" y="20">{escape(title)}</text>{count}</g>'
+        f'<text class="name" x="{INSET:g}" y="20">{escape(title)}</text>'
+        f'<text class="count" x="{INSET:g}" y="40">{inside} boxes</text></g>'
     )
 
 
@@ -149,20 +149,14 @@ def _ports(left: Port | None, right: Port | None, width: float) -> Iterator[str]
     room = width - 2 * INSET - (12 if left is not None and right is not None else 0)
     of_left = fitted(left.text, room, PORT_SIZE) if left is not None else ""
     if left is not None and right is not None:
-        of_left = fitted(left.text, max(room / 2, room - _wide(right.text)), PORT_SIZE)
+        of_left = fitted(left.text, max(room / 2, room - text_width(right.text, PORT_SIZE)), PORT_SIZE)
     if left is not None:
         yield _dot(left, 0.0)
         yield f'<text class="port" x="{INSET:g}" y="{left.y + 3.7:g}">{escape(of_left)}</text>'
     if right is not None:
-        of_right = fitted(right.text, room - _wide(of_left), PORT_SIZE)
+        of_right = fitted(right.text, room - text_width(of_left, PORT_SIZE), PORT_SIZE)
         yield _dot(right, width)
         yield f'<text class="port out" x="{width - INSET:g}" y="{right.y + 3.7:g}">{escape(of_right)}</text>'
-
-
-def _wide(text: str) -> float:
-    from graphface.report.drawing.text_width import text_width
-
-    return text_width(text, PORT_SIZE)
 
 
 def _dot(port: Port, x: float) -> str:
