@@ -9,7 +9,7 @@
   const wires = [...svg.querySelectorAll(".wire")];
   const names = nodes.map((node) => node.dataset.node);
   const paths = frames.map((frame) => frame.dataset.frame);
-  const READABLE = 0.45, LARGEST = 4, MARGIN = 16;
+  const READABLE = 0.6, LARGEST = 4, MARGIN = 16;
   let state = states[0];
   let box = { x: 0, y: 0, scale: 1 };
 

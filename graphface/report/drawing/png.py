@@ -55,8 +55,7 @@ def picture_of(drawn: Figure, placed: Layout) -> Image.Image:
         pen.box(rect, LIGHT.frame, LIGHT.frame_edge)
         pen.text(rect.x + INSET, rect.y + 20, frame.rpartition("/")[2], rect.width - 2 * INSET, 12, LIGHT.ink, bold=True)
     for cord, lanes in zip(drawn.cords, placed.wires, strict=True):
-        dimmed = cord.source.mark is not None and cord.source.mark.dimmed
-        pen.wire(lanes, _faded(LIGHT.wire) if dimmed else LIGHT.wire, dashed=cord.into.lazy)
+        pen.wire(lanes, _faded(LIGHT.wire) if cord.dimmed else LIGHT.wire, dashed=cord.into.lazy)
     for node in drawn.nodes:
         _node(pen, node, placed.boxes[node.name])
     return pen.picture
@@ -163,9 +162,9 @@ def _below(pen: _Pen, node: Node, rect: Rect) -> None:
         pen.text(left, y + 11, f"> {', '.join(node.results)}", room, TEXT_SIZE, LIGHT.accent, bold=True)
         y += LINE
     mark = node.mark
-    if mark is not None and mark.words:
-        color = LIGHT.failed if mark.state == "failed" else LIGHT.muted
-        pen.text(left, y + 11, mark.words, room, PORT_SIZE, color)
+    for line in node.words:
+        color = LIGHT.failed if mark is not None and mark.state == "failed" else LIGHT.muted
+        pen.text(left, y + 11, line, room, PORT_SIZE, color)
         y += LINE
     if mark is not None and mark.heat is not None:
         share = min(max(mark.heat, 0.0), 1.0)

@@ -98,7 +98,7 @@ def _frame(frame: str, rect: Rect, is_folded: bool, drawn: Figure) -> str:
 
 def _wire(cord: Cord, placed: Layout, number: int) -> str:
     kind = "wire lazy" if cord.into.lazy else "wire"
-    if cord.source.mark is not None and cord.source.mark.dimmed:
+    if cord.dimmed:
         kind += " dimmed"
     if number in placed.back:
         kind += " back"
@@ -178,8 +178,8 @@ def _below(node: Node, width: float) -> Iterator[str]:
         yield _text("output", INSET, y + 11, f"▸ {', '.join(node.results)}", room, TEXT_SIZE, bold=True)
         y += LINE
     mark = node.mark
-    if mark is not None and mark.words:
-        yield _text("reason", INSET, y + 11, mark.words, room, PORT_SIZE)
+    for line in node.words:
+        yield _text("reason", INSET, y + 11, line, room, PORT_SIZE)
         y += LINE
     if mark is not None and mark.heat is not None:
         share = min(max(mark.heat, 0.0), 1.0)
