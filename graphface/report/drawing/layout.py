@@ -16,6 +16,8 @@ from graphface.report.drawing.nesting import BORDER, Link, Nesting
 TITLE = 30.0
 """What a frame leaves free above its boxes for its title."""
 _MARGIN = 16.0
+_ROUNDED = 0.11
+"""How far two places may differ that are the same before they are rounded."""
 
 
 def layout(boxes: Sequence[Box], wires: Sequence[Wire], folded: Mapping[str, tuple[float, float]] = {}) -> Layout:
@@ -108,7 +110,12 @@ class _Placing:
             x, y = corners[frame]
             for begins, ends, down in self._levels[frame].lanes[self._numbers[frame][link]]:
                 lane = (round(x + begins, 1), round(x + ends, 1), round(y + down, 1))
-                if lanes and lanes[-1][1:] == (lane[0], lane[2]) and lanes[-1][0] <= lane[0] <= lane[1]:
+                if lanes and _go_on(lanes[-1], lane):
                     lane = (lanes.pop()[0], *lane[1:])
                 lanes.append(lane)
         return tuple(lanes)
+
+
+def _go_on(one: Lane, other: Lane) -> bool:
+    """Whether two pieces of a wire are one line to the right."""
+    return one[2] == other[2] and one[0] <= one[1] <= other[0] + _ROUNDED and other[0] <= other[1]
