@@ -2,9 +2,9 @@
 
     python tests/bench/drawing.py
 
-Shipped graphs, and random ones with frames and mostly short wires. Every box has the same size; times are CPU time of this
-process, the best of three. Crossings are those of straight lines between the middles of the boxes' sides, in which the
-layouts of other programs can be counted too.
+Shipped graphs, and random ones with frames and mostly short wires. Every box has the same size; times are CPU time of
+this process, the best of three. Crossings are those of straight lines between the middles of the boxes' sides, in which
+the layouts of other programs can be counted too.
 """
 
 from __future__ import annotations
@@ -55,12 +55,7 @@ def measured(names: list[str], wires: list[tuple[str, str]]) -> tuple[float, Lay
 def crossings(placed: Layout, wires: list[tuple[str, str]]) -> int:
     """Pairs of lines that cross; two from the same box, or to the same, do not count."""
     boxes = placed.boxes
-    lines = np.array(
-        [
-            (boxes[s].right, boxes[s].y + HEIGHT / 2, boxes[t].x, boxes[t].y + HEIGHT / 2)
-            for s, t in wires
-        ]
-    )
+    lines = np.array([(boxes[s].right, boxes[s].y + HEIGHT / 2, boxes[t].x, boxes[t].y + HEIGHT / 2) for s, t in wires])
     found = 0
     for place, (ax, ay, bx, by) in enumerate(lines):
         cx, cy, dx, dy = lines[:place].T

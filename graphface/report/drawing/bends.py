@@ -48,13 +48,16 @@ def unbend(
         for chain in ordered:
             begin, end = (tops[item] + down for item, down in (chain.begins, chain.ends))
             wanted = [tops[lane] for lane in chain.lanes]
-            for lane, height in zip(chain.lanes, _level(begin, [free(n) for n in chain.lanes], end, wanted), strict=True):
+            level = _level(begin, [free(lane) for lane in chain.lanes], end, wanted)
+            for lane, height in zip(chain.lanes, level, strict=True):
                 tops[lane] = height
 
 
 def _level(begin: float, free: Sequence[Interval], end: float, wanted: Sequence[float]) -> Iterator[float]:
-    """A height for each interval, the same for as many in a row as possible; the first and the last piece go on from
-    `begin` and `end` where they can."""
+    """A height for each interval, the same for as many in a row as possible.
+
+    The first piece goes on from `begin` and the last one to `end` where they can.
+    """
     low = high = begin
     first = 0
     for number, (least, most) in enumerate([*free, (end, end)]):

@@ -8,6 +8,7 @@ below one another, columns beside each other, and lanes keep wires out of what t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import ceil
 
 from graphface.report.drawing.boxes import Box, Lane, Layout, Rect, Wire
 from graphface.report.drawing.level import Level, Passage, arrange
@@ -57,8 +58,8 @@ class _Placing:
             if any(self._levels[frame].back[self._numbers[frame][link]] for frame, link in hops)
         }
         return Layout(
-            width,
-            height,
+            ceil(width),
+            ceil(height),
             {box.name: rects[number] for number, box in enumerate(self._boxes) if number in rects},
             {frame.path: rects[number] for number, frame in nesting.frames.items() if number != nesting.root},
             frozenset(nesting.frames[number].path for number in nesting.folded),

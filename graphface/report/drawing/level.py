@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil
 
 from graphface.report.drawing.bends import Chain, unbend
@@ -129,7 +130,7 @@ class _Arrangement:
         first, last = self._rank[passage.target], self._rank[passage.source]
         key = (passage.bundle, passage.source, passage.target)
         lanes = [self._lane((*key, rank), rank) for rank in range(first, last + 1)]
-        for left, right in zip(lanes, lanes[1:], strict=False):
+        for left, right in pairwise(lanes):
             self._joints[left, right, 0.0, 0.0] = None
         return [passage.source, *reversed(lanes), passage.target]
 
@@ -165,8 +166,7 @@ class _Arrangement:
             before[target].append((source, leaves - enters, weight))
             after[source].append((target, enters - leaves, weight))
         spaces = [
-            [_SPACE if a < items and b < items else _LANE_SPACE for a, b in zip(column, column[1:], strict=False)]
-            for column in columns
+            [_SPACE if a < items and b < items else _LANE_SPACE for a, b in pairwise(column)] for column in columns
         ]
         tops = straightened(columns, self._heights, spaces, before, after)
         unbend(list(self._chains.values()), columns, self._heights, spaces, tops)
