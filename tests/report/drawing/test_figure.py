@@ -35,13 +35,9 @@ class TestNodes:
 
     def test_grows(self, graph: Graph) -> None:
         """Marks and thumbnails make a box taller, a reason takes two lines at most."""
-        plain, marked = (
-            next(n for n in figure(graph, marks, pictures).nodes if n.name == "g")
-            for marks, pictures in (
-                ({}, {}),
-                ({"g": Mark("skipped", "not needed " * 30, 0.5)}, {"g": "data:image/png,"}),
-            )
-        )
+        (plain,) = (node for node in figure(graph).nodes if node.name == "g")
+        drawn = figure(graph, {"g": Mark("skipped", "not needed " * 30, 0.5)}, {"g": "data:image/png,"})
+        (marked,) = (node for node in drawn.nodes if node.name == "g")
         assert marked.height > plain.height + 100
         assert len(marked.words) == 2
 
