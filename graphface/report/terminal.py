@@ -21,7 +21,15 @@ from graphface.record import Record
 from graphface.report.explain import Explained
 from graphface.report.timings import Timings
 
-_FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yellow", "skipped": "dim", "ran": "green"}
+_FATE_STYLES = {
+    "run": "green",
+    "memory": "cyan",
+    "disk": "cyan",
+    "maybe": "yellow",
+    "pinned": "magenta",
+    "skipped": "dim",
+    "ran": "green",
+}
 
 
 class ProgressBar(Observer):
