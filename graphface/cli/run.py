@@ -61,6 +61,10 @@ def run(
         list[str],
         typer.Option("--break", metavar="NODE[:after]", help="Stop before or after this node and ask what to do."),
     ] = [],  # noqa: B006
+    save_failure: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.zip", help="Keep what a failing node was given, for graphface replay."),
+    ] = None,
     times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
     maps: Annotated[
         list[str],
@@ -75,13 +79,13 @@ def run(
     import os
 
     from graphface.cache.memory import MemoryTier
-    from graphface.cli.following import TraceFile
+    from graphface.cli.following import FailureFile, TraceFile
     from graphface.cli.stopping import stopping_at
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_times, print_warnings
     from graphface.settings import memory_budget
 
-    _check_options(guard, trace, peaks=peaks, maps=maps, memory=memory, one_run=[*pins, *breaks])
+    _check_options(guard, trace, peaks=peaks, maps=maps, memory=memory, one_run=[*pins, *breaks, save_failure])
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     given, pinned = read_inputs(inputs), read_pins(pins)
     said: list[str] = []
@@ -96,7 +100,8 @@ def run(
         if maps:
             run_map(loaded, output, given, maps, evaluator, records)
         else:
-            followers = [TraceFile(trace, peaks=peaks)] if trace is not None else []
+            followers: list[Follower] = [TraceFile(trace, peaks=peaks)] if trace is not None else []
+            followers += [FailureFile(save_failure)] if save_failure is not None else []
             with stopping_at(breaks, loaded, evaluator, threads) as (evaluator, stops):
                 records += run_once(
                     loaded, output, given, evaluator, followers, history=cache, pinned=pinned, observers=stops
@@ -108,7 +113,7 @@ def run(
 
 
 def _check_options(
-    guard: str, trace: Path | None, *, peaks: bool, maps: list[str], memory: str | None, one_run: list[str]
+    guard: str, trace: Path | None, *, peaks: bool, maps: list[str], memory: str | None, one_run: list[object]
 ) -> None:
     """Refuse options that do not go together."""
     from graphface.errors import UsageError
@@ -119,8 +124,8 @@ def _check_options(
         raise UsageError("--peaks is measured for the trace; add --trace run.json")
     if maps and trace is not None:
         raise UsageError("--trace and --peaks follow one run; leave them out with --map")
-    if maps and one_run:
-        raise UsageError("--pin and --break are about one run; leave them out with --map")
+    if maps and any(one_run):
+        raise UsageError("--pin, --break and --save-failure are about one run; leave them out with --map")
     if memory is not None and not maps:
         raise UsageError("--memory is what is kept from one combination of --map to the next; one run keeps nothing")
 

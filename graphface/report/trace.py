@@ -85,7 +85,7 @@ class Trace(Observer):
             raise RuntimeError("this trace followed no run")
         graph = self._request.graph
         return {
-            "versions": {"python": platform.python_version(), **_versions()},
+            "versions": versions(),
             "platform": f"{sys.platform} {platform.machine()}",
             "graph": graph.name,
             "document": graph.effective(origins=False),
@@ -136,8 +136,9 @@ def _jsonable(value: Any) -> Any:
     return value if known else repr(value)
 
 
-def _versions() -> dict[str, str]:
-    found = {}
+def versions() -> dict[str, str]:
+    """Of Python and of the packages that decide what operators give, where installed."""
+    found = {"python": platform.python_version()}
     for name in _LIBRARIES:
         try:
             found[name] = metadata.version(name)
