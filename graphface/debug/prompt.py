@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmd
+import os
 import shlex
 import shutil
 import sys
@@ -147,7 +148,7 @@ class Prompt(cmd.Cmd):
         with beside(path) as unfinished:
             Image.fromarray(picture.pixels).save(unfinished)
         self._say(f"{path}{f': {picture.note}' if picture.note else ''}")
-        if self._typed and len(words) == 1:
+        if self._typed and len(words) == 1 and _has_screen():
             import typer
 
             typer.launch(str(path))
@@ -274,6 +275,10 @@ def _split(text: str) -> Iterator[str]:
         yield from shlex.split(text)
     except ValueError as error:
         raise UsageError(str(error).lower()) from None
+
+
+def _has_screen() -> bool:
+    return sys.platform != "linux" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def _temporary(node: str, name: str) -> Path:

@@ -1,7 +1,6 @@
 """One line says how much of a graph ran and what made it run."""
 
 import contextlib
-from typing import Any
 
 import pytest
 from toys import toy_registry
