@@ -144,7 +144,8 @@ class _FromSource(SourceFileLoader):
     """Compiles the file as it is now: a stored compilation counts as current for a second after an edit."""
 
     def get_code(self, fullname: str) -> CodeType:
-        return self.source_to_code(self.get_data(self.path), self.path)
+        path = self.get_filename(fullname)
+        return self.source_to_code(self.get_data(path), path)
 
 
 def _as_pack(named: object) -> Pack:

@@ -12,8 +12,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
-from graphface.debug.breakpoint import Stop
 from graphface.debug.stepping import step_through
+from graphface.debug.stop import Stop
 from graphface.errors import GraphfaceError, UsageError, did_you_mean, nearest_names
 from graphface.evaluate.calling import reason_of
 from graphface.evaluate.observe import StopRun

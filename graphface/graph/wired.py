@@ -118,10 +118,6 @@ class WiredGraph:
 
         return sorted(reached((ref.slot for ref in targets), above))
 
-    def steps_behind(self, targets: Iterable[Ref]) -> list[Step]:
-        """The nodes among `behind`."""
-        return [step for slot in self.behind(targets) if (step := self.step(slot)) is not None]
-
     def missing(self, given: Mapping[str, Any], targets: Iterable[Ref]) -> list[str]:
         """Inputs that `targets` may need and that are neither given nor have a default."""
         needed = {self.input_names[s] for s in self.behind(targets) if s < len(self.inputs)}

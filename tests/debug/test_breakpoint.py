@@ -1,12 +1,11 @@
-"""A breakpoint stops a run at a node, lets it be looked at, and goes on with another value where one is given."""
+"""A breakpoint stops a run at the nodes it is at, where it is wanted, and nowhere else."""
 
 from typing import Any
 
-import numpy as np
 import pytest
 
 from graphface import Breakpoint, Evaluator, Graph, GraphfaceWarning, InputError, MemoryTier, Registry, StopRun, load
-from graphface.debug.breakpoint import Stop
+from graphface.debug.stop import Stop
 from graphface.errors import RunFailed, UsageError
 
 TEXT = """graphface: 1
@@ -102,59 +101,6 @@ class TestStops:
         """What raises in `then` is the observer's mistake, not the node's."""
         with pytest.warns(GraphfaceWarning, match="switched off"):
             assert stops(graph, Breakpoint("b", then=lambda stop: 1 / 0))["c"] == 6  # type: ignore[arg-type, return-value]
-
-
-class TestReplaces:
-    def replaced(self, graph: Graph, node: str, value: Any, name: str = "", threads: int = 1) -> Any:
-        """The result of a run in which a value was replaced at the first stop."""
-        seen: list[str] = []
-
-        def then(stop: Stop) -> None:
-            seen.append(stop.name)
-            if len(seen) == 1:
-                stop.replace(value, name)
-
-        return stops(graph, Breakpoint(node, then=then), threads=threads), seen
-
-    @pytest.mark.parametrize("threads", [1, 3])
-    def test_this_node(self, graph: Graph, ran: list[str], threads: int) -> None:
-        """The value stands in for the node; what was computed before the stop is not computed again."""
-        result, seen = self.replaced(graph, "b", 100.0, threads=threads)
-        assert result["c"] == 102
-        assert (seen, ran) == (["b"], ["a", "c"])
-
-    def test_port(self, graph: Graph) -> None:
-        """What is plugged into a port is replaced for all that use it; the run stops at the node again."""
-        result, seen = self.replaced(graph, "b", 10.0, "a")
-        assert result["c"] == 22
-        assert seen == ["b", "b"]
-
-    def test_input(self, graph: Graph) -> None:
-        """A port that a graph input is plugged into changes the input."""
-        assert self.replaced(graph, "a", 5.0, "a")[0]["c"] == 14
-
-    def test_nothing_kept(self, graph: Graph) -> None:
-        """The same evaluator gives the node's own result afterwards."""
-        evaluator = Evaluator(memory=MemoryTier())
-        stop = Breakpoint("b", then=lambda stop: stop.replace(50.0))
-        assert evaluator.run(graph.request(), [stop])["c"] == 52
-        assert evaluator.run(graph.request())["c"] == 6
-
-    @pytest.mark.parametrize(
-        ("node", "outputs", "name", "said"),
-        [("t", ["t"], "values", "one of a, b"), ("m", ["m"], "grid", "the whole of 'p'"), ("b", None, "b", "plugged")],
-    )
-    def test_refused(self, graph: Graph, node: str, outputs: Any, name: str, said: str) -> None:
-        """What is no single whole value cannot be replaced by the name of its port, and the run still stands."""
-        told: list[str] = []
-
-        def then(stop: Stop) -> None:
-            with pytest.raises(InputError) as caught:
-                stop.replace(np.ones(2), name)
-            told.append(str(caught.value))
-
-        stops(graph, Breakpoint(node, then=then), outputs=outputs)
-        assert said in told[0]
 
 
 class TestEnds:
