@@ -19,6 +19,7 @@ from graphface.node import Cosmetic, Formerly, Needs, node
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
+    from graphface.debug.breakpoint import Breakpoint
     from graphface.document.typed_yaml import read_yaml, validated
     from graphface.errors import (
         DeclarationError,
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
         UsageError,
     )
     from graphface.evaluate.evaluator import Evaluator, Result
-    from graphface.evaluate.observe import Observer
+    from graphface.evaluate.observe import Observer, StopRun
     from graphface.facade import Graph, load
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.packs import Pack
@@ -53,6 +54,7 @@ if not os.path.isdir(os.path.join(__path__[0], "nodes")) and os.path.isdir(os.pa
 _HOMES = {
     "ArrayType": "values.port_types",
     "Asset": "assets.asset",
+    "Breakpoint": "debug.breakpoint",
     "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
@@ -70,6 +72,7 @@ _HOMES = {
     "Result": "evaluate.evaluator",
     "RunError": "errors",
     "RunFailed": "errors",
+    "StopRun": "evaluate.observe",
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
@@ -83,6 +86,7 @@ _HOMES = {
 __all__ = [
     "ArrayType",
     "Asset",
+    "Breakpoint",
     "Cosmetic",
     "DeclarationError",
     "DocumentError",
@@ -103,6 +107,7 @@ __all__ = [
     "Result",
     "RunError",
     "RunFailed",
+    "StopRun",
     "UnreadableFile",
     "UnwritableFile",
     "UsageError",

@@ -80,9 +80,15 @@ class Graph(WiredGraph):
         evaluator = evaluator if evaluator is not None else shared_evaluator()
         return evaluator.run(request(self, inputs, outputs))
 
-    def request(self, inputs: Mapping[str, Any] | None = None, outputs: Iterable[str] | None = None) -> Request:
+    def request(
+        self,
+        inputs: Mapping[str, Any] | None = None,
+        outputs: Iterable[str] | None = None,
+        *,
+        pinned: Mapping[str, Any] | None = None,
+    ) -> Request:
         """What an evaluator runs, and what can be planned and explained; see `graphface.graph.request`."""
-        return request(self, inputs or {}, outputs)
+        return request(self, inputs or {}, outputs, pinned)
 
     def draw(self, path: str | Path) -> None:
         """Draw the graph into a file: .html (zooms and folds), .svg, .png, .mmd (Mermaid) or .dot (Graphviz).
