@@ -7,6 +7,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from graphface.evaluate.observe import Observer
+from graphface.report.dump import Dump
 from graphface.report.trace import Trace
 from graphface.values.writing import check_folder
 
@@ -37,6 +38,10 @@ class TraceFile(Trace, Follower):
 
     def write(self) -> None:
         self.write_to(self._path)
+
+
+class DumpFolder(Dump, Follower):
+    """`--dump DIR`."""
 
 
 @contextmanager

@@ -6,11 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from graphface.nodes.color import encode_srgb
 from graphface.nodes.types.arrays import Encoding, FloatArray
-from graphface.nodes.types.pictures import as_bytes
 
 
 @dataclass(frozen=True)
@@ -63,10 +60,6 @@ class Image:
     @classmethod
     def coerce(cls, value: object) -> Image:
         return image_from_array(value)
-
-    @staticmethod
-    def picture(image: Image) -> NDArray[np.uint8]:
-        return as_bytes(encode_srgb(image.pixels) if image.encoding == "linear" else image.pixels)
 
 
 BRIGHTEST = 64.0
