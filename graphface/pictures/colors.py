@@ -54,6 +54,14 @@ def with_odd(note: str, values: NDArray[Any]) -> str:
     return "; ".join(part for part in (note, words) if part)
 
 
+def share_beyond(values: NDArray[Any], limit: float) -> float:
+    """The share of the pixels of H x W (x C) with a value above a limit or below its negative."""
+    if not values.size or (values.max() <= limit and values.min() >= -limit):
+        return 0.0
+    channels = [values] if values.ndim == 2 else [values[..., channel] for channel in range(values.shape[2])]
+    return float(np.logical_or.reduce([np.abs(channel) > limit for channel in channels]).mean())
+
+
 def not_finite(values: NDArray[Any]) -> NDArray[np.bool_]:
     """Where H x W has no finite number, or H x W x C a channel without: bool H x W."""
     finite: NDArray[np.bool_] = np.isfinite(values if values.ndim == 2 else values[..., 0])
