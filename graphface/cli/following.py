@@ -10,6 +10,7 @@ from pathlib import Path
 from graphface.errors import UnwritableFile, UsageError
 from graphface.evaluate.observe import Observer
 from graphface.fallback import warn
+from graphface.report.dump import Dump
 from graphface.report.failure import FirstFailure, write_failure
 from graphface.report.trace import Trace
 from graphface.values.writing import check_folder
@@ -64,6 +65,10 @@ class FailureFile(FirstFailure, Follower):
             warn(f"the failure is not saved: {error}")
         else:
             print(f"node {self.failed.step.name!r} is in {self._path}: graphface replay {self._path}", file=sys.stderr)
+
+
+class DumpFolder(Dump, Follower):
+    """`--dump DIR`."""
 
 
 @contextmanager

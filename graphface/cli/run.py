@@ -41,7 +41,12 @@ def run(
     inputs: Inputs = [],  # noqa: B006
     output: Annotated[
         list[str],
-        typer.Option("-o", "--output", metavar="[NAME=]FILE", help="An output, or any node.port, and its file."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="[NAME=]FILE",
+            help="An output, or any node.port, and its file; as .png, .jpg or .webp any value is a picture.",
+        ),
     ] = [],  # noqa: B006
     sets: Sets = [],  # noqa: B006
     replaces: Replaces = [],  # noqa: B006
@@ -69,6 +74,9 @@ def run(
     watch: Annotated[
         bool, typer.Option("--watch", help="Run again whenever a file changes: graph, input, plug-in, operator.")
     ] = False,
+    dump: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write every value of the run: a picture, and .npz without loss.")
+    ] = None,
     times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
     maps: Annotated[
         list[str],
@@ -83,14 +91,14 @@ def run(
     import os
 
     from graphface.cache.memory import MemoryTier
-    from graphface.cli.following import FailureFile, TraceFile
+    from graphface.cli.following import DumpFolder, FailureFile, TraceFile
     from graphface.cli.stopping import stopping_at
     from graphface.cli.watch import watch_run
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_times, print_warnings
     from graphface.settings import memory_budget
 
-    one_run = [*pins, *breaks, save_failure, watch]
+    one_run = [trace, dump, *pins, *breaks, save_failure, watch]
     _check_options(guard, trace, peaks=peaks, maps=maps, memory=memory, breaks=breaks, watch=watch, one_run=one_run)
     load = partial(load_graph, graph, sets, replaces, variants, profiles, plugins)
     given, pinned = read_inputs(inputs), read_pins(pins)
@@ -102,6 +110,7 @@ def run(
         guard=guard,  # type: ignore[arg-type]
     )
     followers: list[Follower] = [TraceFile(trace, peaks=peaks)] if trace is not None else []
+    followers += [DumpFolder(dump, evaluator)] if dump is not None else []
     followers += [FailureFile(save_failure)] if save_failure is not None else []
     once = partial(run_once, output=output, given=given, followers=followers, history=cache, pinned=pinned)
     if watch:
@@ -139,10 +148,10 @@ def _check_options(
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
     if peaks and trace is None:
         raise UsageError("--peaks is measured for the trace; add --trace run.json")
-    if maps and trace is not None:
-        raise UsageError("--trace and --peaks follow one run; leave them out with --map")
     if maps and any(one_run):
-        raise UsageError("--pin, --break, --save-failure and --watch are about one run; leave them out with --map")
+        raise UsageError(
+            "--trace, --dump, --pin, --break, --save-failure and --watch are about one run; leave them out with --map"
+        )
     if breaks and watch:
         raise UsageError("--break stops one run; leave it out with --watch")
     if memory is not None and not (maps or breaks or watch):
@@ -169,23 +178,21 @@ def run_once(
         pinned: values that stand in for nodes. observers: further ones. quiet: show no progress.
     """
     from graphface.cli.following import written
+    from graphface.cli.output import OutputFiles
     from graphface.report.history import History, Remember
     from graphface.report.terminal import ProgressBar
-    from graphface.values.writing import check_output, write_output
 
     files = output_files(graph, output, given)
     asked = graph.request(given, files, pinned=pinned)
-    types = {name: graph.type_of(target) for name, target in asked.targets.items()}
-    for name, path in files.items():
-        check_output(path, types[name], graph.registry.files)
+    outputs = OutputFiles(graph, asked.targets, evaluator)
+    outputs.check(files)
     _check_kept(files.values(), [*given.values(), *(pinned or {}).values()])
     with ProgressBar(silent=quiet) as bar, written(followers):
-        watching: list[Observer] = [bar, *followers, *observers]
+        watching: list[Observer] = [bar, *followers, *observers, *outputs.observers(files)]
         if evaluator.disk is not None:
             watching.append(Remember(History.beside(history), evaluator.disk))
         result = evaluator.run(asked, watching)
-    for name, path in files.items():
-        write_output(result[name], types[name], path, graph.registry.files, text=graph.provenance())
+    outputs.write(result, files)
     return result.records
 
 
@@ -200,29 +207,26 @@ def run_map(
     Raises:
         UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
     """
+    from graphface.cli.output import OutputFiles
     from graphface.evaluate.mapping import MapFailed, read_maps, run_over
     from graphface.report.terminal import ProgressBar
-    from graphface.values.writing import check_folder, check_output, write_output
 
     over = read_maps(maps)
     _check_distinct(graph, output, given, over)
     graph.bind(given)  # what all combinations share is refused once, before any runs
     first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
     targets = graph.targets(first)
-    for name, path in first.items():
-        check_output(path, graph.type_of(targets[name]), graph.registry.files)
+    outputs = OutputFiles(graph, targets, evaluator)
+    outputs.check(first)
     failed, total = [], 0
     with ProgressBar() as bar:
-        evaluator.observers = (bar,)
+        evaluator.observers = (bar, *outputs.observers(first))
         for made in run_over(graph, evaluator, over, given, targets):
             total += 1
             if made.result is None:
                 failed.append(made)
                 continue
-            for name, path in output_files(graph, output, made.inputs).items():
-                check_folder(path)
-                kind = graph.type_of(targets[name])
-                write_output(made.result[name], kind, path, graph.registry.files, text=graph.provenance())
+            outputs.write(made.result, output_files(graph, output, made.inputs))
             records += made.result.records
     if failed:
         raise MapFailed(failed, total)

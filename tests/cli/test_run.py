@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 Run = Callable[..., object]
 
@@ -239,3 +240,33 @@ class TestSizes:
         said = run("-o", tmp_path / "a.npy", "--memory", "1G")
         assert said.code == 2
         assert "--map" in said.err
+
+
+class TestPictures:
+    def test_any_node(self, run: Run, tmp_path: Path) -> None:
+        """A value whose type writes no picture is drawn."""
+        assert run("-o", f"g={tmp_path / 'g.png'}").code == 0
+        with Image.open(tmp_path / "g.png") as opened:
+            assert opened.size == (4, 4)
+
+    def test_number(self, run: Run, tmp_path: Path) -> None:
+        """Numbers are pictures too."""
+        assert run("-o", f"unused={tmp_path / 'n.webp'}").code == 0
+        assert (tmp_path / "n.webp").stat().st_size
+
+    def test_other_suffix(self, run: Run, tmp_path: Path) -> None:
+        """Another suffix is refused before anything runs, and pictures are named among what can be written."""
+        said = run("-o", f"g={tmp_path / 'g.bmp'}")
+        assert said.code == 2
+        assert "as its picture: .png" in said.err
+
+
+class TestDump:
+    def test_folder(self, run: Run, tmp_path: Path) -> None:
+        """Every value of the run beside the outputs."""
+        assert run("-o", f"scaled={tmp_path / 's.npy'}", "--dump", tmp_path / "d").code == 0
+        assert {"g.npz", "g.png", "run.json"} <= {p.name for p in (tmp_path / "d").iterdir()}
+
+    def test_with_map(self, run: Run, tmp_path: Path) -> None:
+        """One run has a dump, many have none."""
+        assert run("-o", tmp_path / "a.npy", "--map", f"x={tmp_path}", "--dump", tmp_path / "d").code == 2
