@@ -14,9 +14,10 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from graphface.report.drawing.marks import Mark, MarkState
+from graphface.report.drawing.svg import draw_svg
 from graphface.report.page.model import model
 from graphface.report.page.read import RUN
-from graphface.report.page.tiles import draw_svg
 from graphface.report.recorder import Recorder
 from graphface.values.writing import beside
 
@@ -53,7 +54,7 @@ def report_page(recorder: Recorder) -> str:
 </head>
 <body>
 {_part("body.html")}
-<template id="svg">{draw_svg(recorder.request.graph)}</template>
+<template id="svg">{_drawing(recorder, shown["nodes"])}</template>
 <script type="application/json" id="{RUN}">{embedded(recorder.trace.as_json())}</script>
 <script type="application/json" id="report">{embedded(shown)}</script>
 <script type="application/json" id="blobs">{embedded(recorder.blobs.texts)}</script>
@@ -61,6 +62,22 @@ def report_page(recorder: Recorder) -> str:
 </body>
 </html>
 """
+
+
+def _drawing(recorder: Recorder, nodes: list[dict[str, Any]]) -> str:
+    """The graph with the state of every node. Thumbnails are named by the number of their blob: they are stored once."""
+    assert recorder.request is not None
+    marks = {node["name"]: _mark(node) for node in nodes}
+    thumbnails = {n["name"]: f"data:image/webp;#{n['sheets'][0]['image']}" for n in nodes if n["sheets"]}
+    return draw_svg(recorder.request.graph, marks=marks, thumbnails=thumbnails)
+
+
+def _mark(node: dict[str, Any]) -> Mark:
+    state: MarkState = "failed" if node["state"] == "stopped" else node["state"]
+    label = {"memory": "from memory", "disk": "from disk", "skipped": "not run"}.get(node["state"], node["state"])
+    if node["state"] == "ran":
+        label = f"ran {node['seconds'] * 1e3:.3g} ms" if node["seconds"] < 1 else f"ran {node['seconds']:.3g} s"
+    return Mark(state, node["reason"], 0.0, label)
 
 
 def embedded(value: Any) -> str:
