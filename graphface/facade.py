@@ -25,7 +25,8 @@ from graphface.graph.request import Request, request
 from graphface.graph.wired import WiredGraph
 from graphface.registry import Registry, default_registry
 from graphface.report import picture_size
-from graphface.report.table import graph_table
+from graphface.report.drawing.formats import write_drawing
+from graphface.report.drawing.svg import draw_svg
 
 
 def load(
@@ -121,8 +122,16 @@ class Graph(WiredGraph):
         """What an evaluator runs, and what can be planned and explained; see `graphface.graph.request`."""
         return request(self, inputs or {}, outputs)
 
+    def draw(self, path: str | Path) -> None:
+        """Draw the graph into a file: .html (zooms and folds), .svg, .png, .mmd (Mermaid) or .dot (Graphviz).
+
+        Raises:
+            RefusedOutput: no drawing has this suffix, or the folder is missing or read-only.
+        """
+        write_drawing(self, Path(path))
+
     def _repr_html_(self) -> str:
-        return graph_table(self)
+        return f'<div style="overflow: auto; max-height: 85vh">{draw_svg(self)}</div>'
 
 
 @cache

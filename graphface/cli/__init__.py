@@ -17,7 +17,7 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from graphface.cli import ablate, assets, cache, explain, new, nodes, plan, run, schema, show
+from graphface.cli import ablate, assets, cache, draw, explain, new, nodes, plan, run, schema, show
 from graphface.packs import load_entry_point
 
 ENTRY_POINTS = "graphface.commands"
@@ -39,6 +39,7 @@ def build() -> TyperGroup:
     app.command("explain")(explain.explain)
     app.command("ablate")(ablate.ablate)
     app.command("show")(show.show)
+    app.command("draw")(draw.draw)
     app.command("nodes")(nodes.nodes)
     app.command("new")(new.new)
     app.command("schema")(schema.schema)
