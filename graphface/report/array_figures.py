@@ -32,6 +32,11 @@ class Figures:
     infinite: int
     counts: tuple[int, ...]
 
+    @property
+    def counted(self) -> bool:
+        """Whether any value is finite."""
+        return self.nan + self.infinite < math.prod(self.shape)
+
 
 def figures(array: NDArray[Any]) -> Figures | None:
     """The figures of an array of numbers or booleans; None where it holds none.
@@ -56,9 +61,12 @@ def figures(array: NDArray[Any]) -> Figures | None:
 def _histogram(numbers: NDArray[Any], low: float, high: float) -> tuple[int, ...]:
     if high <= low or not math.isfinite(high - low):
         return ()
+    from PIL import Image
+
     flat, scale = numbers.reshape(-1), numbers.dtype.type(BINS / (high - low))
     counts = np.zeros(BINS, np.int64)
     for start in range(0, flat.size, _BLOCK):  # twice as fast as whole: what is made on the way stays in the CPU's cache
         unit = (flat[start : start + _BLOCK] - flat.dtype.type(low)) * scale
-        counts += np.bincount(np.minimum(unit, BINS - 1).astype(np.uint8), minlength=BINS)
+        bins = np.minimum(unit, BINS - 1).astype(np.uint8)
+        counts += Image.frombuffer("L", (bins.size, 1), bins).histogram()[:BINS]  # np.bincount takes four times as long
     return tuple(int(n) for n in counts)

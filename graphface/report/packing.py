@@ -34,7 +34,7 @@ class Packed:
         special: the codes NAN, POSITIVE and NEGATIVE may occur.
         exact: what is read is what was there, to the rounding of float32; else it is off by up to half a step.
         whole: the values are integers or booleans.
-        packed: the codes, deflated.
+        planes: the codes of each channel, deflated.
     """
 
     height: int
@@ -46,7 +46,7 @@ class Packed:
     special: bool
     exact: bool
     whole: bool
-    packed: bytes
+    planes: tuple[bytes, ...]
 
 
 @dataclass(frozen=True)
@@ -79,15 +79,16 @@ def pack(data: NDArray[Any]) -> Packed | None:
         special=any(c.special for c in coded),
         exact=all(c.exact for c in coded),
         whole=whole,
-        packed=_deflated(codes),
+        planes=_deflated(codes),
     )
 
 
 def unpack(packed: Packed) -> NDArray[np.float64]:
     """The values as a page reads them, H x W x C."""
     shape = packed.channels, packed.height, packed.width
-    raw = np.frombuffer(zlib.decompress(packed.packed), np.uint8).astype(np.int64)
-    zigzag = (raw if packed.bits == 8 else raw[: raw.size // 2] << 8 | raw[raw.size // 2 :]).reshape(shape)
+    raw = np.stack([np.frombuffer(zlib.decompress(plane), np.uint8) for plane in packed.planes]).astype(np.int64)
+    half = packed.height * packed.width
+    zigzag = (raw if packed.bits == 8 else raw[:, :half] << 8 | raw[:, half:]).reshape(shape)
     left_over = (zigzag >> 1) ^ -(zigzag & 1)
     codes = np.zeros(shape, np.int64)
     mask = (1 << packed.bits) - 1
@@ -144,8 +145,8 @@ def _numbers(plane: NDArray[Any]) -> _Coded:
     return _Coded(codes, low, step if high > low else 0.0, exact=False, special=True)
 
 
-def _deflated(codes: NDArray[Any]) -> bytes:
-    """Codes of C x H x W by their differences from the predictor, high bytes first.
+def _deflated(codes: NDArray[Any]) -> tuple[bytes, ...]:
+    """Codes of C x H x W by their differences from the predictor, for each channel high bytes first.
 
     A difference is wrapped into the signed range of its width, then 0, -1, 1, -2 ... are written as 0, 1, 2, 3 ...
     """
@@ -157,9 +158,14 @@ def _deflated(codes: NDArray[Any]) -> bytes:
     signed, bits = (np.int8, 8) if codes.dtype == np.uint8 else (np.int16, 16)
     difference = (wide - _predicted(left, above, corner)).astype(signed)
     zigzag = ((difference << 1) ^ (difference >> (bits - 1))).astype(codes.dtype)
-    planes = [zigzag] if bits == 8 else [zigzag >> 8, zigzag & 0xFF]
+    parts = [zigzag] if bits == 8 else [zigzag >> 8, zigzag & 0xFF]
+    channels = np.stack([part.astype(np.uint8) for part in parts], axis=1)
+    return tuple(_compressed(channel.tobytes()) for channel in channels)
+
+
+def _compressed(content: bytes) -> bytes:
     deflate = zlib.compressobj(1, zlib.DEFLATED, 15, 9, zlib.Z_RLE)
-    return b"".join(deflate.compress(plane.astype(np.uint8).tobytes()) for plane in planes) + deflate.flush()
+    return deflate.compress(content) + deflate.flush()
 
 
 def _predicted(left: NDArray[Any], above: NDArray[Any], corner: NDArray[Any]) -> NDArray[Any]:

@@ -19,6 +19,7 @@ from graphface.report.drawing.marks import Mark, MarkState
 from graphface.report.drawing.svg import draw_svg
 from graphface.report.page.model import model
 from graphface.report.page.read import RUN
+from graphface.report.page.seven_bit import seven_bit
 from graphface.report.recorder import Recorder
 from graphface.values.writing import beside, check_folder
 
@@ -34,7 +35,7 @@ def write_report(recorder: Recorder, path: Path) -> None:
     """
     page = report_page(recorder)
     with beside(path) as temporary:
-        temporary.write_text(page, encoding="utf-8")
+        temporary.write_bytes(page.encode("utf-8"))
 
 
 def check_report(path: Path) -> None:
@@ -53,7 +54,8 @@ def report_page(recorder: Recorder) -> str:
     shown = model(recorder)
     assert recorder.request is not None
     script = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
-    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{_hash(script)}'"
+    blobs = "\n".join(map(seven_bit, recorder.blobs.contents))
+    policy = f"default-src 'none'; img-src blob:; style-src 'unsafe-inline'; script-src 'sha256-{_hash(script)}'"
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -69,7 +71,7 @@ def report_page(recorder: Recorder) -> str:
 <template id="svg">{_drawing(recorder, shown["nodes"])}</template>
 <script type="application/json" id="{RUN}">{embedded(recorder.trace.as_json())}</script>
 <script type="application/json" id="report">{embedded(shown)}</script>
-<script type="application/json" id="blobs">{embedded(recorder.blobs.texts)}</script>
+<script type="text/plain" id="blobs">{blobs}</script>
 <script type="module">{script}</script>
 </body>
 </html>

@@ -149,7 +149,7 @@ def _sheet(sheet: Sheet) -> Json:
     packed = sheet.packed
     if packed is not None:
         shown["data"] = {
-            "blob": sheet.data,
+            "planes": sheet.planes,
             "height": packed.height,
             "width": packed.width,
             "channels": packed.channels,
