@@ -68,7 +68,7 @@ def _stage(ablation: Ablation, case: int) -> str:
     values = [cell.value for cell in ablation.of_case(case)] + [ablation.truths[case]]
     images = []
     for index, value in enumerate(values):
-        picture = None if value is None else picture_of(value, declared)
+        picture = None if value is None else picture_of(value, declared, ablation.graph.registry)
         if picture is not None:
             images.append(f'<img data-v="{index}" alt="" src="{_data(picture)}">')
     given = ", ".join(f"{name} = {Path(str(value)).name}" for name, value in ablation.cases[case].items())

@@ -9,6 +9,7 @@ from pathlib import Path
 from graphface.evaluate.observe import Observer
 from graphface.report.page.html import check_report, write_report
 from graphface.report.recorder import Find, Recorder
+from graphface.report.dump import Dump
 from graphface.report.trace import Trace
 from graphface.values.writing import check_folder
 
@@ -59,6 +60,10 @@ class ReportFile(Recorder, Follower):
 
     def write(self) -> None:
         write_report(self, self._path)
+
+
+class DumpFolder(Dump, Follower):
+    """`--dump DIR`."""
 
 
 @contextmanager
