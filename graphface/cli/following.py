@@ -7,9 +7,9 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from graphface.evaluate.observe import Observer
+from graphface.report.dump import Dump
 from graphface.report.page.html import check_report, write_report
 from graphface.report.recorder import Find, Recorder
-from graphface.report.dump import Dump
 from graphface.report.trace import Trace
 from graphface.values.writing import check_folder
 

@@ -24,7 +24,6 @@ from graphface.cli.options import (
     open_cache,
     read_inputs,
 )
-
 from graphface.report import picture_size
 
 if TYPE_CHECKING:
@@ -66,7 +65,8 @@ def run(
         typer.Option(metavar="run.html", help="Write a page with a picture of every value, also where the run fails."),
     ] = None,
     report_size: Annotated[
-        int, typer.Option(
+        int,
+        typer.Option(
             metavar="PIXELS",
             min=picture_size.SMALLEST,
             max=picture_size.LARGEST,

@@ -84,6 +84,6 @@ def _histogram(numbers: NDArray[Any], low: float, high: float) -> tuple[int, ...
         np.subtract(block, kind(low), out=unit[:count])
         np.multiply(unit[:count], kind(BINS / (high - low)), out=unit[:count])
         np.copyto(bins[:count], unit[:count], casting="unsafe")
-        counts += Image.frombuffer("L", (count, 1), bins[:count]).histogram()[: BINS + 1]  # np.bincount: four times that
+        counts += Image.frombuffer("L", (count, 1), bins[:count]).histogram()[: BINS + 1]  # np.bincount takes longer
     counts[BINS - 1] += counts[BINS]  # the largest number itself
     return tuple(int(n) for n in counts[:BINS])

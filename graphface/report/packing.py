@@ -71,7 +71,8 @@ def pack(data: NDArray[Any]) -> Packed | None:
     bits = max(8 * c.codes.itemsize for c in coded)
     codes = np.stack([c.codes.astype(np.uint8 if bits == 8 else np.uint16) for c in coded])
     return Packed(
-        *data.shape[:2],
+        data.shape[0],
+        data.shape[1],
         len(coded),
         bits,
         tuple(c.low for c in coded),
@@ -111,7 +112,7 @@ def _in_255ths(planes: NDArray[Any]) -> list[_Coded] | None:
         return None
     scaled = planes * 255.0
     codes = np.rint(scaled)
-    if np.abs(scaled - codes).max() > 1e-4:
+    if (np.abs(scaled - codes) > 4e-7 * codes).any():  # beyond the rounding of a float32; what is 0 has to be 0
         return None
     return [_Coded(plane, 0.0, 1 / 255) for plane in codes.astype(np.uint8)]
 

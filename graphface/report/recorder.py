@@ -12,7 +12,7 @@ import threading
 import time
 import weakref
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -256,7 +256,7 @@ def fields_taken(request: Request) -> dict[int, set[tuple[str, ...]]]:
     return taken
 
 
-def _parts(value: Any, taken: Sequence[tuple[str, ...]] | set[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], Any]]:
+def _parts(value: Any, taken: Collection[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], Any]]:
     """A value and those of its fields that are taken and there."""
     yield (), value
     for fields in sorted(taken):

@@ -1,7 +1,7 @@
 """The page of a run: model, drawing, styles and scripts in one file that asks nobody for anything.
 
 Texts of graphs, parameters and files are only in JSON, which the script puts on the page as text; the drawing escapes
-its own. A content security policy backs that up: the browser runs this one script, known by its hash, and loads nothing.
+its own. A content security policy backs that up: browsers run this one script, known by its hash, and load nothing.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def report_page(recorder: Recorder) -> str:
 
 
 def _drawing(recorder: Recorder, nodes: list[dict[str, Any]]) -> str:
-    """The graph with the state of every node. Thumbnails are named by the number of their blob: they are stored once."""
+    """The graph with the state of every node. Thumbnails are the numbers of blobs, which are stored once."""
     assert recorder.request is not None
     marks = {node["name"]: _mark(node) for node in nodes}
     thumbnails = {n["name"]: f"data:image/webp;#{n['sheets'][0]['image']}" for n in nodes if n["sheets"]}
@@ -88,6 +88,8 @@ def _drawing(recorder: Recorder, nodes: list[dict[str, Any]]) -> str:
 
 def _mark(node: dict[str, Any]) -> Mark:
     state: MarkState = "failed" if node["state"] == "stopped" else node["state"]
+    if node["state"] == "blocked":
+        return Mark(state, label=node["reason"])
     label = {"memory": "from memory", "disk": "from disk", "skipped": "not run"}.get(node["state"], node["state"])
     if node["state"] == "ran":
         label = f"ran {node['seconds'] * 1e3:.3g} ms" if node["seconds"] < 1 else f"ran {node['seconds']:.3g} s"

@@ -2,8 +2,8 @@
 
 Nearly all of the 128 ASCII characters may stand in an element that holds no markup. The four that may not (NUL and CR,
 which browsers change; LF, which ends a text here; <, which could end the element) go as U+0080..U+0083, in two bytes.
-Random bytes take 1.18 bytes each, 1.33 in base64. A page in a one-byte encoding would take 1.02; it was rejected, since a
-server that calls every page UTF-8 would garble it. See also Albertson, *Base-122 Encoding*, 2016.
+Random bytes take 1.18 bytes each, 1.33 in base64. A page in a one-byte encoding would take 1.02; it was rejected, since
+a server that calls every page UTF-8 would garble it. See also Albertson, *Base-122 Encoding*, 2016.
 """
 
 from __future__ import annotations
