@@ -37,6 +37,11 @@ def ramp(*, height: int = 150, width: int = 200) -> Grid:
     return made
 
 
+@node("hostile.top")
+def top(grid: Grid) -> float:
+    return float(np.nanmax(grid))
+
+
 GRAPH: dict[str, Any] = {
     "graphface": 1,
     "name": HOSTILE,
@@ -48,16 +53,16 @@ GRAPH: dict[str, Any] = {
         "scaled": {"use": "toy.scale", "in": {"grid": "texts"}},
         "pair": {"use": "toy.pair", "in": {"grid": "scaled"}},
         "low": {"use": "toy.scale", "in": {"grid": "pair.low"}},
-        "mean": {"use": "toy.mean", "in": {"grid": "low"}},
-        "unasked": {"use": "toy.add", "in": {"a": "mean"}},
-        "bad": {"use": "toy.fail", "in": {"a": "mean"}, "with": {"message": HOSTILE}},
+        "top": {"use": "hostile.top", "in": {"grid": "low"}},
+        "unasked": {"use": "toy.add", "in": {"a": "top"}},
+        "bad": {"use": "toy.fail", "in": {"a": "top"}, "with": {"message": HOSTILE}},
     },
 }
 
 
 def _registry() -> Registry:
     registry = toy_registry().extended()
-    for function in (texts, ramp):
+    for function in (texts, ramp, top):
         registry.add(function)
     return registry
 
@@ -87,7 +92,7 @@ def browser() -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return _report(tmp_path_factory.mktemp("report") / "a <b> & #1.html", "mean")
+    return _report(tmp_path_factory.mktemp("report") / "a <b> & #1.html", "top")
 
 
 @pytest.fixture(scope="module")
@@ -218,7 +223,7 @@ def test_wide_and_narrow(open_page: Any, finished: Path) -> None:
 def test_search(open_page: Any, finished: Path) -> None:
     """ "/" searches by name, operator and warning; Enter goes to what was found."""
     page = open_page(finished)
-    for words, found in (("low", "low"), ("toy.mean", "mean"), ("onerror", "texts")):
+    for words, found in (("low", "low"), ("hostile.top", "top"), ("onerror", "texts")):
         page.keyboard.press("/")
         page.keyboard.type(words)
         assert page.locator("#found [role=option]").count() == 1
@@ -259,8 +264,8 @@ def test_views(open_page: Any, finished: Path) -> None:
     page.click("#view-nodes thead >> text=time")
     page.click("#tab-timeline")
     assert page.locator("#view-timeline .bar").count() == 6
-    page.click("#view-timeline [data-to=mean]", force=True)
-    assert _chosen(page) == "mean"
+    page.click("#view-timeline [data-to=top]", force=True)
+    assert _chosen(page) == "top"
     page.click("#tab-yaml")
     assert "toy.scale" in page.text_content("#view-yaml")
     page.click("#tab-run")
@@ -274,7 +279,7 @@ def test_failed(open_page: Any, failed: Path) -> None:
     assert HOSTILE.replace("\u2028", "") in page.text_content("#panel .error").replace("\u2028", "")
     assert page.locator("#panel .port.big img").count() == 1
     page.click("#panel .port.big a")
-    assert _chosen(page) == "mean"
+    assert _chosen(page) == "top"
 
 
 def test_hostile_texts(open_page: Any, finished: Path) -> None:

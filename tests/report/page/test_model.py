@@ -79,7 +79,7 @@ def test_failed() -> None:
     assert bad["error"]["reason"] == "ValueError: it broke"
     assert "raise ValueError" in bad["error"]["code"]
     assert said["by_name"]["below"]["reason"] == "blocked by bad"
-    assert said["by_name"]["warned"]["warnings"] == ["2.0 was too much"]
+    assert said["by_name"]["warned"]["warnings"] == ["2 was too much"]
 
 
 def test_interrupted() -> None:
