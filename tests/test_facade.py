@@ -39,6 +39,13 @@ class TestGraph:
         loaded = load(TEXT, registry=registry)
         assert Evaluator().run(loaded.request({"x": 4.0}, ["a"]))["a"] == 4
 
+    def test_shows_itself(self, registry: Registry, tmp_path: Path) -> None:
+        """In a notebook as a drawing, which `draw` writes to a file."""
+        loaded = load(TEXT, registry=registry)
+        assert 'data-node="a"' in loaded._repr_html_()
+        loaded.draw(tmp_path / "g.html")
+        assert 'data-node="a"' in (tmp_path / "g.html").read_text()
+
 
 class TestResult:
     def test_report(self, registry: Registry, tmp_path: Path) -> None:
