@@ -33,9 +33,9 @@ if TYPE_CHECKING:
         UnwritableFile,
         UsageError,
     )
-    from graphface.evaluate.evaluator import Evaluator, Result
+    from graphface.evaluate.evaluator import Evaluator
     from graphface.evaluate.observe import Observer, StopRun
-    from graphface.facade import Graph, load
+    from graphface.facade import Graph, Result, load
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.packs import Pack
     from graphface.registry import Registry
@@ -71,7 +71,7 @@ _HOMES = {
     "Pack": "packs",
     "Picture": "values.picture",
     "Registry": "registry",
-    "Result": "evaluate.evaluator",
+    "Result": "facade",
     "RunError": "errors",
     "RunFailed": "errors",
     "StopRun": "evaluate.observe",

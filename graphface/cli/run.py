@@ -27,6 +27,7 @@ from graphface.cli.options import (
     read_inputs,
     read_pins,
 )
+from graphface.report import picture_size
 
 if TYPE_CHECKING:
     from graphface.cli.following import Follower
@@ -74,6 +75,19 @@ def run(
     watch: Annotated[
         bool, typer.Option("--watch", help="Run again whenever a file changes: graph, input, plug-in, operator.")
     ] = False,
+    report: Annotated[
+        Path | None,
+        typer.Option(metavar="run.html", help="Write a page with a picture of every value, also where the run fails."),
+    ] = None,
+    report_size: Annotated[
+        int,
+        typer.Option(
+            metavar="PIXELS",
+            min=picture_size.SMALLEST,
+            max=picture_size.LARGEST,
+            help="The longer side of the report's pictures.",
+        ),
+    ] = picture_size.DEFAULT,
     dump: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Write every value of the run: a picture, and .npz without loss.")
     ] = None,
@@ -91,15 +105,16 @@ def run(
     import os
 
     from graphface.cache.memory import MemoryTier
-    from graphface.cli.following import DumpFolder, FailureFile, TraceFile
+    from graphface.cli.beside import Beside
     from graphface.cli.stopping import stopping_at
     from graphface.cli.watch import watch_run
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_times, print_warnings
     from graphface.settings import memory_budget
 
-    one_run = [trace, dump, *pins, *breaks, save_failure, watch]
-    _check_options(guard, trace, peaks=peaks, maps=maps, memory=memory, breaks=breaks, watch=watch, one_run=one_run)
+    beside = Beside(trace, peaks, report, report_size, dump, save_failure)
+    beside.check(maps)
+    _check_options(guard, maps=maps, memory=memory, breaks=breaks, watch=watch, pins=pins)
     load = partial(load_graph, graph, sets, replaces, variants, profiles, plugins)
     given, pinned = read_inputs(inputs), read_pins(pins)
     said: list[str] = []
@@ -109,9 +124,7 @@ def run(
         threads=1 if peaks else threads or os.cpu_count() or 1,
         guard=guard,  # type: ignore[arg-type]
     )
-    followers: list[Follower] = [TraceFile(trace, peaks=peaks)] if trace is not None else []
-    followers += [DumpFolder(dump, evaluator)] if dump is not None else []
-    followers += [FailureFile(save_failure)] if save_failure is not None else []
+    followers = beside.followers(evaluator)
     once = partial(run_once, output=output, given=given, followers=followers, history=cache, pinned=pinned)
     if watch:
         watch_run(load, once, evaluator, [Path(graph), *map(Path, (given | pinned).values())], plugins, cache, times)
@@ -131,27 +144,15 @@ def run(
 
 
 def _check_options(
-    guard: str,
-    trace: Path | None,
-    *,
-    peaks: bool,
-    maps: list[str],
-    memory: str | None,
-    breaks: list[str],
-    watch: bool,
-    one_run: Sequence[object],
+    guard: str, *, maps: list[str], memory: str | None, breaks: list[str], watch: bool, pins: list[str]
 ) -> None:
     """Refuse options that do not go together."""
     from graphface.errors import UsageError
 
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
-    if peaks and trace is None:
-        raise UsageError("--peaks is measured for the trace; add --trace run.json")
-    if maps and any(one_run):
-        raise UsageError(
-            "--trace, --dump, --pin, --break, --save-failure and --watch are about one run; leave them out with --map"
-        )
+    if maps and (pins or breaks or watch):
+        raise UsageError("--pin, --break and --watch are about one run; leave them out with --map")
     if breaks and watch:
         raise UsageError("--break stops one run; leave it out with --watch")
     if memory is not None and not (maps or breaks or watch):

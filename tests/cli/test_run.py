@@ -242,6 +242,36 @@ class TestSizes:
         assert "--map" in said.err
 
 
+class TestReport:
+    def test_beside_a_trace(self, run: Run, tmp_path: Path) -> None:
+        """`--report` and `--trace` tell of the same run."""
+        import json
+
+        from graphface.report.page.read import read_report
+
+        page, trace = tmp_path / "run.html", tmp_path / "run.json"
+        said = run("-o", f"{tmp_path}/s.npy", "--report", page, "--report-size", 64, "--trace", trace)
+        assert said.code == 0
+        assert [n["key"] for n in read_report(page)["nodes"]] == [
+            n["key"] for n in json.loads(trace.read_text())["nodes"]
+        ]
+
+    def test_failed_run(self, run: Run, tmp_path: Path) -> None:
+        """A run that fails writes its report, with the failure and where it is."""
+        page = tmp_path / "run.html"
+        assert run("-o", f"bad={tmp_path}/s.npz", "--report", page).code == 1
+        assert "raise ValueError(message)" in page.read_text(encoding="utf-8")
+
+    def test_refused(self, run: Run, tmp_path: Path) -> None:
+        """A report under another suffix, or of a --map, is refused before anything runs."""
+        other = run("-o", f"{tmp_path}/s.npy", "--report", tmp_path / "run.txt")
+        mapped = run("-o", f"{tmp_path}/{{x}}.npy", "--map", f"x={tmp_path}", "--report", tmp_path / "run.html")
+        assert (other.code, mapped.code) == (2, 2)
+        assert "name it .html" in other.err
+        assert "follows one run" in mapped.err
+        assert not list(tmp_path.glob("*.npy"))
+
+
 class TestPictures:
     def test_any_node(self, run: Run, tmp_path: Path) -> None:
         """A value whose type writes no picture is drawn."""
