@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from graphface.registry import Registry
     from graphface.values.files import Files
     from graphface.values.parts import register_parts
+    from graphface.values.picture import Picture, View
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -66,6 +67,7 @@ _HOMES = {
     "NodeError": "errors",
     "Observer": "evaluate.observe",
     "Pack": "packs",
+    "Picture": "values.picture",
     "Registry": "registry",
     "Result": "evaluate.evaluator",
     "RunError": "errors",
@@ -73,6 +75,7 @@ _HOMES = {
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
+    "View": "values.picture",
     "load": "facade",
     "read_yaml": "document.typed_yaml",
     "register_parts": "values.parts",
@@ -99,6 +102,7 @@ __all__ = [
     "NodeError",
     "Observer",
     "Pack",
+    "Picture",
     "Registry",
     "Result",
     "RunError",
@@ -106,6 +110,7 @@ __all__ = [
     "UnreadableFile",
     "UnwritableFile",
     "UsageError",
+    "View",
     "load",
     "node",
     "read_yaml",
