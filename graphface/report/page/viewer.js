@@ -134,7 +134,7 @@ class Viewer {
       const name = data.names[channel] || (data.channels > 1 ? `[${channel}]` : "");
       return `${name ? `${name} ` : ""}${number(value, data.whole)}`;
     });
-    return [`x ${x}, y ${y}`, ...numbers];
+    return [`at ${x}, ${y}`, ...numbers];
   }
 }
 
