@@ -136,6 +136,10 @@ class Operator:
     def output_annotation(self) -> Any:
         return self._hints["return"]
 
+    def annotation(self, name: str) -> Any:
+        """The annotation of a port or parameter."""
+        return self._hints[name]
+
     @cached_property
     def parameters(self) -> type[BaseModel]:
         """The pydantic model of the keyword-only arguments; unknown names are refused."""

@@ -17,7 +17,7 @@ from graphface.evaluate.reason import NO_REASON, Reason
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
 from graphface.record import Record, State
-from graphface.report.history import History, Identity, identities
+from graphface.report.history import PINNED, History, Identity, identities
 from graphface.values.frozen import arrays_in
 
 
@@ -56,11 +56,12 @@ def explain(request: Request, evaluator: Evaluator, history: History) -> list[Ex
     """Every node with its fate and the reason, before the request is run."""
     before = history.last(request.graph.name)
     now = identities(request)
+    pinned = {request.graph.names[slot] for slot in request.pinned}
     changed = {name for name in now if name in before and before[name].key != now[name].key}
     explained = []
     for entry in plan(request, evaluator):
         known, identity = before.get(entry.name), now.get(entry.name)
-        why = _why(known, identity, changed, evaluator) if identity is not None else NO_REASON
+        why = _why(known, identity, changed, pinned, evaluator) if identity is not None else NO_REASON
         reason = entry.reason
         if entry.fate == "run":
             reason = why
@@ -99,6 +100,8 @@ def with_results(
 
 
 def _with_record(entry: Explained, record: Record, damaged: Sequence[str]) -> Explained:
+    if entry.fate == "pinned":
+        return entry
     ran = record.state in ("ran", "failed")
     reason = entry.reason if entry.fate in ("run", "memory", "disk") else entry.otherwise
     if record.state == "failed":
@@ -130,12 +133,14 @@ def _declined(decider: str, records: Sequence[Record]) -> Reason:
     return Reason("not reached")
 
 
-def _why(before: Identity | None, now: Identity, changed: set[str], evaluator: Evaluator) -> Reason:
+def _why(before: Identity | None, now: Identity, changed: set[str], pinned: set[str], evaluator: Evaluator) -> Reason:
     """The first difference between a node's last identity and this one; where there is none, how its value got lost."""
     if before is None:
         return Reason("first seen")
     if before.key == now.key:
         return _lost(before, evaluator)
+    if before.operator == PINNED:
+        return Reason("unpinned")
     if before.operator != now.operator:
         return Reason("operator", old=before.operator, new=now.operator)
     if before.code != now.code:
@@ -146,7 +151,7 @@ def _why(before: Identity | None, now: Identity, changed: set[str], evaluator: E
             return Reason("parameter", parameter=name, old=str(old), new=str(new))
     for port in {**before.inputs, **now.inputs}:
         if before.inputs.get(port) != now.inputs.get(port):
-            return _input_change(port, before.inputs.get(port, []), now.inputs.get(port, []), changed)
+            return _input_change(port, before.inputs.get(port, []), now.inputs.get(port, []), changed, pinned)
     return Reason("lazy ports")
 
 
@@ -161,9 +166,13 @@ def _lost(before: Identity, evaluator: Evaluator) -> Reason:
     return Reason("not kept")
 
 
-def _input_change(port: str, before: list[list[str]], now: list[list[str]], changed: set[str]) -> Reason:
+def _input_change(
+    port: str, before: list[list[str]], now: list[list[str]], changed: set[str], pinned: set[str]
+) -> Reason:
     there, here = [name for name, _ in before], [name for name, _ in now]
     if there != here:
         return Reason("wiring", port=port, old=", ".join(there) or "nothing", new=", ".join(here) or "nothing")
     culprit = next(name for (name, new), (_, old) in zip(now, before, strict=True) if new != old).partition(".")[0]
+    if culprit in pinned:
+        return Reason("pinned above", node=culprit)
     return Reason("node above" if culprit in changed else "input", node=culprit, port=port)

@@ -12,12 +12,13 @@ import platform
 import sys
 import threading
 import tracemalloc
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from graphface.evaluate.observe import Observer
+from graphface.graph.inputs import Bound
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
 from graphface.record import Record
@@ -75,7 +76,7 @@ class Trace(Observer):
             self._tracing = False
 
     def as_json(self) -> dict[str, Any]:
-        """Versions, graph, inputs and every node of the run; a parameter that JSON does not know is its `repr`.
+        """Versions, graph, what was given and every node of the run; a parameter that JSON does not know is its `repr`.
 
         Raises:
             RuntimeError: no run was followed.
@@ -83,13 +84,13 @@ class Trace(Observer):
         if self._request is None:
             raise RuntimeError("this trace followed no run")
         graph = self._request.graph
-        inputs = {b.name: {"origin": b.origin, "digest": b.digest.hex()} for b in self._request.bound if b is not None}
         return {
-            "versions": {"python": platform.python_version(), **_versions()},
+            "versions": versions(),
             "platform": f"{sys.platform} {platform.machine()}",
             "graph": graph.name,
             "document": graph.effective(origins=False),
-            "inputs": inputs,
+            "inputs": _origins(self._request.bound),
+            "pinned": _origins(self._request.pinned.values()),
             "nodes": [self._node(record) for record in self.records],
         }
 
@@ -120,6 +121,10 @@ class Trace(Observer):
         }
 
 
+def _origins(given: Iterable[Bound | None]) -> dict[str, Any]:
+    return {b.name: {"origin": b.origin, "digest": b.digest.hex()} for b in given if b is not None}
+
+
 def _jsonable(value: Any) -> Any:
     """A parameter as strict JSON has it; what JSON does not know (infinity, a path) is its `repr`."""
     rule = rule_of(type(value))
@@ -131,8 +136,9 @@ def _jsonable(value: Any) -> Any:
     return value if known else repr(value)
 
 
-def _versions() -> dict[str, str]:
-    found = {}
+def versions() -> dict[str, str]:
+    """Of Python and of the packages that decide what operators give, where installed."""
+    found = {"python": platform.python_version()}
     for name in _LIBRARIES:
         try:
             found[name] = metadata.version(name)
