@@ -39,7 +39,7 @@ def model(recorder: Recorder) -> Json:
     return {
         "graph": graph.name,
         "doc": graph.composition.doc,
-        "made": time.strftime("%Y-%m-%d %H:%M:%S"),
+        "made": time.strftime("%Y-%m-%d %H:%M"),
         "outputs": outputs,
         "seconds": recorder.seconds,
         "drawing": recorder.drawing,

@@ -57,9 +57,12 @@ function keys(event) {
 
 function top() {
   document.getElementById("graph").textContent = REPORT.graph || "graph";
-  const outputs = REPORT.outputs.map((output) => output.name).join(", ");
+  const names = REPORT.outputs.map((output) => output.name);
+  const rest = names.length > 4 ? ` and ${names.length - 3} more outputs` : "";
+  const outputs = rest ? names.slice(0, 3).join(", ") + rest : names.join(", ");
   const time = REPORT.seconds ? ` · ${duration(REPORT.seconds)}` : "";
   document.getElementById("about").textContent = `${outputs}${time} · ${REPORT.made}`;
+  document.getElementById("about").title = names.join(", ");
   const warned = REPORT.nodes.filter((node) => (node.warnings || []).length).length;
   const counts = Object.keys(STATES).filter((state) => REPORT.counts[state]);
   document.getElementById("counts").append(

@@ -14,14 +14,15 @@ function setUpTimeline() {
     return element("div", { class: "thread" }, element("h3", {}, thread), element("div", { class: "bars" }, ...bars));
   });
   const ticks = scale(end).map((at) => element("span", { style: `left:${(100 * at) / end}%` }, duration(at)));
-  const words = `${ran.length} nodes in ${duration(REPORT.seconds)}; ${duration(REPORT.drawing)} of CPU drew this report, which leaves gaps.`;
+  const words = `${ran.length} nodes in ${duration(REPORT.seconds)}; the gaps are drawing for this report, ${duration(REPORT.drawing)} in all.`;
   view.append(element("p", { class: "small" }, words), element("div", { class: "ticks" }, ...ticks), ...rows);
 }
 
 function bar(node, end) {
   const style = `left:${(100 * node.start) / end}%;width:${(100 * node.seconds) / end}%`;
   const title = `${node.name}\n${node.operator || "input"}\nfrom ${duration(node.start)}, ${duration(node.seconds)}`;
-  return link(node.name, node.name, { class: `bar ${node.state}`, style, title });
+  const short = node.seconds > end / 30 ? node.name.split("/").pop() : "";
+  return link(node.name, short, { "aria-label": node.name, class: `bar ${node.state}`, style, title });
 }
 
 // About eight round numbers from 0 to the end.

@@ -134,12 +134,12 @@ class Viewer {
       const name = data.names[channel] || (data.channels > 1 ? `[${channel}]` : "");
       return `${name ? `${name} ` : ""}${number(value, data.whole)}`;
     });
-    return [`x ${x}, y ${y}`, ...numbers];
+    return [`at ${x}, ${y}`, ...numbers];
   }
 }
 
 function precision(data) {
-  const shown = data.width === data.full[1] && data.height === data.full[0] ? "every value" : "every n-th row and column";
-  if (data.exact) return `${shown}, exact`;
-  return `${shown}, to ± ${number(Math.max(...data.step) / 2)}`;
+  const sampled = data.width === data.full[1] && data.height === data.full[0] ? "" : "sampled, ";
+  if (data.exact) return `${sampled}exact`;
+  return `${sampled}± ${(Math.max(...data.step) / 2).toPrecision(1)}`;
 }

@@ -142,7 +142,7 @@ def _read(page: Any, column: int, row: int) -> str:
     for _ in range(100):  # until the values are unpacked
         page.mouse.move(*_place(page, column, row))
         said = _readout(page)
-        if said.startswith("x "):
+        if said.startswith("at "):
             return said
         page.mouse.move(0, 0)
         page.wait_for_timeout(20)
@@ -177,7 +177,7 @@ def test_value(open_page: Any, finished: Path, column: int, row: int) -> None:
     page = open_page(finished, "#ramp")
     x, y, value = _sampled(ramp(), column, row)
     said = _read(page, column, row)
-    assert said.startswith(f"x {x}, y {y} ")
+    assert said.startswith(f"at {x}, {y} ")
     step = np.nanmax(ramp()[np.isfinite(ramp())]) / 65532
     assert float(said.rsplit(" ", 1)[1]) == pytest.approx(value, abs=step, rel=1e-4)
 
