@@ -37,6 +37,9 @@ if TYPE_CHECKING:
     from graphface.record import Record
 
 
+_INSIDE = "Seeing inside"
+
+
 def run(
     graph: GraphName,
     inputs: Inputs = [],  # noqa: B006
@@ -59,25 +62,51 @@ def run(
     cache: Cache = None,
     cache_size: CacheSize = None,
     memory: Memory = None,
-    trace: Annotated[Path | None, typer.Option(metavar="run.json", help="Write what happened at every node.")] = None,
+    trace: Annotated[
+        Path | None,
+        typer.Option(metavar="run.json", help="Write what happened at every node.", rich_help_panel=_INSIDE),
+    ] = None,
     peaks: Annotated[
-        bool, typer.Option("--peaks", help="Measure each node's peak of memory for --trace: one thread, slower.")
+        bool,
+        typer.Option(
+            "--peaks",
+            help="Measure each node's peak of memory for --trace: one thread, slower.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = False,
     pins: Pins = [],  # noqa: B006
     breaks: Annotated[
         list[str],
-        typer.Option("--break", metavar="NODE[:after]", help="Stop before or after this node and ask what to do."),
+        typer.Option(
+            "--break",
+            metavar="NODE[:after]",
+            help="Stop before or after this node and ask what to do.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = [],  # noqa: B006
     save_failure: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.zip", help="Keep what a failing node was given, for graphface replay."),
+        typer.Option(
+            metavar="FILE.zip",
+            help="Keep what a failing node was given, for graphface replay.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = None,
     watch: Annotated[
-        bool, typer.Option("--watch", help="Run again whenever a file changes: graph, input, plug-in, operator.")
+        bool,
+        typer.Option(
+            "--watch",
+            help="Run again whenever a file changes: graph, input, plug-in, operator.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = False,
     report: Annotated[
         Path | None,
-        typer.Option(metavar="run.html", help="Write a page with a picture of every value, also where the run fails."),
+        typer.Option(
+            metavar="run.html",
+            help="Write a page with a picture of every value, also where the run fails.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = None,
     report_size: Annotated[
         int,
@@ -86,12 +115,20 @@ def run(
             min=picture_size.SMALLEST,
             max=picture_size.LARGEST,
             help="The longer side of the report's pictures.",
+            rich_help_panel=_INSIDE,
         ),
     ] = picture_size.DEFAULT,
     dump: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Write every value of the run: a picture, and .npz without loss.")
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Write every value of the run: a picture, and .npz without loss.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = None,
-    times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
+    times: Annotated[
+        bool, typer.Option("--times", help="Show the time of every node.", rich_help_panel=_INSIDE)
+    ] = False,
     maps: Annotated[
         list[str],
         typer.Option(
