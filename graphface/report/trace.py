@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from graphface.evaluate.observe import Observer
+from graphface.graph.inputs import Bound
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
 from graphface.record import Record
@@ -83,7 +84,7 @@ class Trace(Observer):
         if self._request is None:
             raise RuntimeError("this trace followed no run")
         graph = self._request.graph
-        inputs = {b.name: {"origin": b.origin, "digest": b.digest.hex()} for b in self._request.bound if b is not None}
+        inputs = {b.name: _input(b) for b in self._request.bound if b is not None}
         return {
             "versions": {"python": platform.python_version(), **_versions()},
             "platform": f"{sys.platform} {platform.machine()}",
@@ -113,20 +114,26 @@ class Trace(Observer):
             "bytes": record.bytes,
             "peak_bytes": self.peaks.get(record.name),
             "thread": self.threads.get(record.name),
-            "parameters": _jsonable(self.parameters.get(record.name, {})),
+            "parameters": jsonable(self.parameters.get(record.name, {})),
             "value": self.summaries.get(record.name),
             "reason": record.reason,
             "warnings": list(record.warnings),
         }
 
 
-def _jsonable(value: Any) -> Any:
+def _input(bound: Bound) -> dict[str, Any]:
+    """Where an input came from; of a number or text also what it was, since no file tells."""
+    told: dict[str, Any] = {"origin": bound.origin, "digest": bound.digest.hex()}
+    return told | {"value": jsonable(bound.number)} if bound.is_number else told
+
+
+def jsonable(value: Any) -> Any:
     """A parameter as strict JSON has it; what JSON does not know (infinity, a path) is its `repr`."""
     rule = rule_of(type(value))
     if rule is NUMBERED:
-        return [_jsonable(item) for item in value]
+        return [jsonable(item) for item in value]
     if rule is not None:
-        return {str(label): _jsonable(part) for label, part in rule.items(value)}
+        return {str(label): jsonable(part) for label, part in rule.items(value)}
     known = type(value) in (str, int, bool, type(None)) or (type(value) is float and math.isfinite(value))
     return value if known else repr(value)
 
