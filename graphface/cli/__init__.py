@@ -17,7 +17,7 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from graphface.cli import ablate, assets, cache, explain, new, nodes, plan, run, schema, show
+from graphface.cli import ablate, assets, cache, diff, explain, new, nodes, plan, run, schema, show
 from graphface.packs import load_entry_point
 
 ENTRY_POINTS = "graphface.commands"
@@ -37,6 +37,7 @@ def build() -> TyperGroup:
     app.command("run")(run.run)
     app.command("plan")(plan.plan)
     app.command("explain")(explain.explain)
+    app.command("diff")(diff.diff)
     app.command("ablate")(ablate.ablate)
     app.command("show")(show.show)
     app.command("nodes")(nodes.nodes)

@@ -6,6 +6,8 @@ looked at. Nodes are matched by their path in the graph.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from graphface.cache.memory import MemoryTier
 from graphface.errors import GraphfaceError
 from graphface.evaluate.evaluator import Evaluator
@@ -14,6 +16,7 @@ from graphface.graph.request import Request
 from graphface.report.changes import changes
 from graphface.report.difference.found import Differences, NodeDifference
 from graphface.report.difference.side import Side, failure_of
+from graphface.report.difference.tolerance import EXACT, Tolerance
 from graphface.report.difference.values import differences
 from graphface.report.history import identities
 
@@ -24,13 +27,13 @@ def compare(
     evaluator: Evaluator | None = None,
     *,
     labels: tuple[str, str] = ("A", "B"),
-    tolerance: float = 0.0,
+    tolerance: Tolerance = EXACT,
 ) -> Differences:
     """Every node that has not the same value in two requests.
 
     Args:
         evaluator: where both run; it needs a memory tier, in which values wait for each other.
-        tolerance: the greatest difference that counts as none, as a share of the range of the first side's values.
+        tolerance: which differences count as none.
 
     Raises:
         InputError, UnreadableFile: an input is missing or cannot be read. A node that fails is a difference, no error.
@@ -67,7 +70,7 @@ class Comparison:
             if self._identities[0][name].key != self._identities[1][name].key
         }
 
-    def differences(self, tolerance: float = 0.0) -> Differences:
+    def differences(self, tolerance: Tolerance = EXACT) -> Differences:
         """Compare the values of all nodes whose keys differ."""
         one, other = self.sides
         listed, below, idle, alike, equal = [], [], [], [], 0
@@ -86,9 +89,9 @@ class Comparison:
                 if found.caused:
                     idle.append((name, found.caused))
             else:
-                (listed if found.relative > tolerance else below).append(found)
+                (below if all(tolerance.allows(part) for part in found.parts) else listed).append(found)
         both = len(one.needed.keys() & other.needed.keys())
-        return Differences(self.labels, listed, below, idle, alike, both, equal, tolerance)
+        return Differences(self.labels, _told(listed), _told(below), idle, alike, both, equal, tolerance)
 
     def _node(self, name: str) -> NodeDifference | None:
         """A node whose keys differ or that one side lacks; None where it is blocked on both sides."""
@@ -139,6 +142,18 @@ class Comparison:
 
     def _key(self, side: int, name: str) -> bytes:
         return self.sides[side].request.key(self.sides[side].needed[name])
+
+
+def _told(nodes: list[NodeDifference]) -> list[NodeDifference]:
+    """The same, each inheriting only from nodes whose values differ; where there are none of those, from all."""
+    differing = {node.name for node in nodes}
+
+    def kept(node: NodeDifference) -> tuple[Reason, ...]:
+        inherited = [r for r in node.reasons if r.kind == "node above"]
+        from_differing = [r for r in inherited if r.node in differing]
+        return (*node.caused, *(from_differing or inherited))
+
+    return [replace(node, reasons=kept(node)) for node in nodes]
 
 
 def merged(one: list[str], other: list[str]) -> list[str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from graphface.evaluate.reason import Reason
+from graphface.report.difference.tolerance import EXACT, Tolerance
 from graphface.report.difference.values import PartDifference
 
 Kind = Literal["values", "failed", "only here", "only there"]
@@ -66,7 +67,7 @@ class Differences:
     failed_alike: Sequence[tuple[str, str]] = ()
     compared: int = 0
     equal: int = 0
-    tolerance: float = 0.0
+    tolerance: Tolerance = EXACT
 
     def __bool__(self) -> bool:
         """Whether anything differs."""
