@@ -61,7 +61,7 @@ def diff(
     variants: Variants = [],  # noqa: B006
     profiles: Profiles = [],  # noqa: B006
     plugins: Plugins = [],  # noqa: B006
-    size: Annotated[int, typer.Option(min=64, help="Pixels of the longer side of a picture in the page.")] = 800,
+    size: Annotated[int, typer.Option(min=64, max=4096, help="Pixels of a picture's longer side in the page.")] = 512,
     threads: Annotated[int, typer.Option(min=0, help="Nodes that may run at once; 0: one per core.")] = 0,
     guard: Annotated[str, typer.Option(help="What to do about NaN and infinity: off, warn or error.")] = "error",
     cache: Cache = None,

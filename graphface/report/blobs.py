@@ -67,17 +67,17 @@ class Blobs:
 
             stream = BytesIO()
             Image.fromarray(pixels).save(stream, "WEBP", quality=QUALITY, method=0)
-            self._images[digest] = self._add(stream.getvalue())
+            self._images[digest] = self.add(stream.getvalue())
         return self._images[digest]
 
     def _data(self, data: NDArray[Any]) -> tuple[int, Packed] | None:
         digest = _digest(data)
         if digest not in self._packed:
             packed = pack(data)
-            self._packed[digest] = (self._add(packed.packed), packed) if packed is not None else None
+            self._packed[digest] = (self.add(packed.packed), packed) if packed is not None else None
         return self._packed[digest]
 
-    def _add(self, content: bytes) -> int:
+    def add(self, content: bytes) -> int:
         digest = blake2b(content, digest_size=16).digest()
         if digest not in self._known:
             self._known[digest] = len(self.texts)

@@ -37,6 +37,7 @@ class PartDifference:
         non_finite: how many places are finite on one side only, or infinite in different ways.
         position: index of the greatest difference; of a map of pixels its row and column first.
         box: left, top, width and height of the pixels that differ; None for what is no map of pixels.
+        shape: of the arrays.
     """
 
     path: str
@@ -49,6 +50,7 @@ class PartDifference:
     non_finite: int = 0
     position: tuple[int, ...] = ()
     box: tuple[int, int, int, int] | None = None
+    shape: tuple[int, ...] = ()
 
     @property
     def relative(self) -> float:
@@ -140,6 +142,7 @@ def _sized(one: NDArray[Any], other: NDArray[Any], differing: NDArray[np.bool_],
         non_finite=odd,
         position=tuple(int(i) for i in np.unravel_index(int(place), one.shape)),
         box=None if pixels is None else _box(pixels),
+        shape=one.shape,
     )
 
 
