@@ -43,7 +43,7 @@ def escaped(line: str) -> str:
 
 def _lines(composition: Composition, registry: Registry, origins: bool) -> Iterator[str]:
     def noted(line: str, place: Place | None) -> str:
-        return f"{line}  # {_origin(place)}" if origins and place is not None else line
+        return f"{line}  # {origin(place)}" if origins and place is not None else line
 
     yield "graphface: 1"
     yield f"name: {_value(composition.name)}"
@@ -135,7 +135,7 @@ def _quoted(text: str) -> str:
     return escaped(json.dumps(text.encode("utf-8", "replace").decode(), ensure_ascii=False))
 
 
-def _origin(place: Place) -> str:
+def origin(place: Place) -> str:
     """The place for reading: files below the working folder by their path, others by their name."""
     name = place.source.name
     if name.startswith("--"):

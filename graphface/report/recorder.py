@@ -137,6 +137,10 @@ class Recorder(Observer):
         elif error is not None:
             self.stopped_by = error
 
+    def began(self, name: str) -> bool:
+        """Whether a node was started, finished or not."""
+        return name in self._started
+
     def _fill(self, records: Sequence[Record]) -> None:
         """What the run did not touch: its value by key where a tier has it, and the reason."""
         assert self.request is not None

@@ -1,0 +1,94 @@
+"""The page of a run: model, drawing, styles and scripts in one file that asks nobody for anything.
+
+Texts of graphs, parameters and files are only in JSON, which the script puts on the page as text; the drawing escapes
+its own. A content security policy backs that up: the browser runs this one script, known by its hash, and loads nothing.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from graphface.report.drawing.marks import Mark, MarkState
+from graphface.report.drawing.svg import draw_svg
+from graphface.report.page.model import model
+from graphface.report.page.read import RUN
+from graphface.report.recorder import Recorder
+from graphface.values.writing import beside
+
+_SCRIPTS = ("element", "values", "viewer", "panel", "drawing", "timeline", "lists", "search", "page")
+"""In this order, in one scope."""
+
+
+def write_report(recorder: Recorder, path: Path) -> None:
+    """Write the report of the run that was followed, whole or not at all.
+
+    Raises:
+        UnwritableFile: the folder cannot be written to. RuntimeError: no run was followed.
+    """
+    page = report_page(recorder)
+    with beside(path) as temporary:
+        temporary.write_text(page, encoding="utf-8")
+
+
+def report_page(recorder: Recorder) -> str:
+    """The page as text."""
+    shown = model(recorder)
+    assert recorder.request is not None
+    script = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
+    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{_hash(script)}'"
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{escape(shown["graph"])}: run report</title>
+<style>{_part("page.css")}</style>
+</head>
+<body>
+{_part("body.html")}
+<template id="svg">{_drawing(recorder, shown["nodes"])}</template>
+<script type="application/json" id="{RUN}">{embedded(recorder.trace.as_json())}</script>
+<script type="application/json" id="report">{embedded(shown)}</script>
+<script type="application/json" id="blobs">{embedded(recorder.blobs.texts)}</script>
+<script type="module">{script}</script>
+</body>
+</html>
+"""
+
+
+def _drawing(recorder: Recorder, nodes: list[dict[str, Any]]) -> str:
+    """The graph with the state of every node. Thumbnails are named by the number of their blob: they are stored once."""
+    assert recorder.request is not None
+    marks = {node["name"]: _mark(node) for node in nodes}
+    thumbnails = {n["name"]: f"data:image/webp;#{n['sheets'][0]['image']}" for n in nodes if n["sheets"]}
+    return draw_svg(recorder.request.graph, marks=marks, thumbnails=thumbnails)
+
+
+def _mark(node: dict[str, Any]) -> Mark:
+    state: MarkState = "failed" if node["state"] == "stopped" else node["state"]
+    label = {"memory": "from memory", "disk": "from disk", "skipped": "not run"}.get(node["state"], node["state"])
+    if node["state"] == "ran":
+        label = f"ran {node['seconds'] * 1e3:.3g} ms" if node["seconds"] < 1 else f"ran {node['seconds']:.3g} s"
+    return Mark(state, node["reason"], 0.0, label)
+
+
+def embedded(value: Any) -> str:
+    """JSON that may stand inside an element: nothing in it opens or closes one."""
+    text = json.dumps(value, separators=(",", ":"), allow_nan=False)
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def _part(name: str) -> str:
+    return (files("graphface.report.page") / name).read_text(encoding="utf-8")
+
+
+def _hash(script: str) -> str:
+    return b64encode(sha256(script.encode("utf-8")).digest()).decode("ascii")
