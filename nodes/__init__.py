@@ -97,6 +97,47 @@ _FILES = {
 }
 """What reads and writes the types that files can hold: constants of `graphface.nodes.io.files`."""
 
+_PICTURES = {
+    "Albedo": "maps:draw_albedo",
+    "Camera": "fitting:draw_camera",
+    "Correspondence": "correspondence:draw_correspondence",
+    "Depth": "maps:draw_depth",
+    "Detail": "maps:draw_detail",
+    "DetailMap": "appearance:draw_detail_map",
+    "Direction": "light:draw_direction",
+    "Environment": "light:draw_environment",
+    "FaceCoordinates": "maps:draw_coordinates",
+    "Features": "masks:draw_features",
+    "FitRecord": "fitting:draw_fit_record",
+    "Gain": "maps:draw_gain",
+    "HeadMasks": "masks:draw_head_masks",
+    "Image": "photo:draw_image",
+    "Intrinsic": "appearance:draw_intrinsic",
+    "Judgements": "points:draw_judgements",
+    "LabelWeights": "features:draw_weights",
+    "Landmarks": "points:draw_landmarks",
+    "Lighting": "light:draw_lighting",
+    "LightingFit": "light:draw_fit",
+    "Mask": "masks:draw_mask",
+    "Mesh": "mesh:draw_mesh",
+    "MorphableModel": "mesh:draw_model",
+    "Normals": "maps:draw_normals",
+    "Pins": "points:draw_pins",
+    "PixelFeatures": "features:draw_pixel_features",
+    "Regions": "masks:draw_regions",
+    "Samples": "relighting:draw_samples",
+    "Scene": "scene:draw_scene",
+    "Segmentation": "masks:draw_segmentation",
+    "Shading": "maps:draw_shading",
+    "Shadows": "relighting:draw_shadows",
+    "Surface": "maps:draw_surface",
+    "Surroundings": "relighting:draw_surroundings",
+    "Texture": "texture:draw_texture",
+    "TexturedMesh": "mesh:draw_textured",
+    "Visibility": "points:draw_visibility",
+}
+"""What draws the types: functions in modules of `graphface.nodes.pictures`. The engine draws what is made of them."""
+
 pack: Pack = Pack(
     name="graphface",
     graphs="graphface.graphs",
@@ -108,11 +149,13 @@ pack: Pack = Pack(
     types={
         **{name: f"graphface.nodes.types:{name}" for name in _TYPES},
         "LabelWeights": "graphface.nodes.masks.label_weights:LabelWeights",
+        "PixelFeatures": "graphface.nodes.masks.features:PixelFeatures",
         "MorphableModel": "graphface.nodes.morphable.model:MorphableModel",
     },
     files={
         **{name: f"graphface.nodes.io.files:{constant}" for name, constant in _FILES.items()},
         "LabelWeights": "graphface.nodes.masks.files:LABEL_WEIGHTS",
     },
+    pictures={name: f"graphface.nodes.pictures.{where}" for name, where in _PICTURES.items()},
     schemas={"scene": "graphface.nodes.types:Scene"},
 )

@@ -7,7 +7,7 @@ but the operators themselves.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 from typing import Any
@@ -156,13 +156,8 @@ class _Wirer:
         if item is not None and all(item.accepts(source) for source in sources):
             return True
         wanted = item if item is not None and not single else port.type
-        for target, source in zip(flat.targets, sources, strict=True):
-            if not wanted.accepts(source):
-                hint = " (it may be None; the port is not optional)" if source.optional and not wanted.optional else ""
-                message = f"{target} gives {source}, but {what} ({node.use.value}) takes {wanted}{hint}"
-                self._problem(message, flat.place)
-                return None
-        self._problem(f"{what} takes one {port.type}, not a list", flat.place)
+        misfit = _misfit(flat.targets, sources, wanted, f"{what} ({node.use.value})")
+        self._problem(misfit or f"{what} takes one {port.type}, not a list", flat.place)
         return None
 
     def _checked_type(
@@ -241,3 +236,12 @@ class _Wirer:
 
     def _problem(self, message: str, place: Place | None, nearest: list[str] | tuple[str, ...] = ()) -> None:
         self._problems.append(Problem(message, place, tuple(nearest)))
+
+
+def _misfit(targets: Sequence[Target], sources: Sequence[PortType], wanted: PortType, what: str) -> str:
+    """The first wire whose type is not taken, in words; empty where each is."""
+    for target, source in zip(targets, sources, strict=True):
+        if not wanted.accepts(source):
+            hint = " (it may be None; the port is not optional)" if source.optional and not wanted.optional else ""
+            return f"{target} gives {source}, but {what} takes {wanted}{hint}"
+    return ""

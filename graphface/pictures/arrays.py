@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.pictures.card import draw_text
-from graphface.pictures.colors import grey_of, with_odd
+from graphface.pictures.colors import grey_of
 from graphface.pictures.grid import draw_grid
 from graphface.pictures.plots import draw_curve
 from graphface.values.frozen import describe
@@ -55,13 +55,11 @@ def _picture(array: NDArray[Any], view: View) -> Picture:
 
 def _layers(array: NDArray[Any], view: View) -> Picture:
     """N x H x W as pictures side by side, all of one scale."""
-    pixels, note = grey_of(array.reshape(len(array) * array.shape[1], array.shape[2])[:1])
     seen = [view.sampled(layer) for layer in array[:36]]
     joined, note = grey_of(np.stack(seen).reshape(-1, seen[0].shape[1]))
     tiles = joined.reshape(len(seen), *seen[0].shape, 3)
     cells = [(str(i), _shown(tile)) for i, tile in enumerate(tiles)]
-    drawn = draw_grid(cells, view)
-    return Picture(drawn.pixels, with_odd(f"{len(array)} layers, {note}", np.zeros(0)))
+    return Picture(draw_grid(cells, view).pixels, f"{len(array)} layers, {note}")
 
 
 def _shown(tile: NDArray[np.uint8]) -> Any:

@@ -28,7 +28,8 @@ def draw_text(text: str, view: View) -> Picture:
         lines = _wrapped(text[:_MOST], max(4, int((side - 2 * margin) / max(pen.textlength("n", letters), 1))))
         step = 1.25 * max(7, size)
         wide = max(pen.textlength(line, letters) for line in lines)
-        if wide <= side - 2 * margin and len(lines) * step <= room:
+        whole = all(len(word) <= max(map(len, lines)) for word in text.split())
+        if whole and wide <= side - 2 * margin and len(lines) * step <= room:
             break
     kept = lines[: max(1, int(room / step))]
     if len(kept) < len(lines):

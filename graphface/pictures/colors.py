@@ -24,7 +24,7 @@ def as_bytes(unit: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
     if pixels.ndim == 2:
         pixels = np.repeat(pixels[..., None], 3, axis=2)
     if not finite:
-        pixels[not_finite(scaled)] = NON_FINITE
+        mark_odd(pixels, scaled)
     return pixels
 
 
@@ -56,5 +56,12 @@ def with_odd(note: str, values: NDArray[Any]) -> str:
 
 def not_finite(values: NDArray[Any]) -> NDArray[np.bool_]:
     """Where H x W has no finite number, or H x W x C a channel without: bool H x W."""
-    odd: NDArray[np.bool_] = ~np.isfinite(values)
-    return odd.any(axis=2) if odd.ndim == 3 else odd
+    if values.ndim == 2:
+        return ~np.isfinite(values)
+    return ~np.logical_and.reduce([np.isfinite(values[..., channel]) for channel in range(values.shape[2])])
+
+
+def mark_odd(pixels: NDArray[np.uint8], values: NDArray[Any]) -> None:
+    """Make the pixels magenta where a value H x W (x C) is not finite."""
+    if values.dtype.kind == "f" and not np.isfinite(values.sum()):
+        pixels[not_finite(values)] = NON_FINITE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -64,6 +65,7 @@ def _by_engine(value: Any, declared: PortType, registry: Registry, view: View, d
     if all(_is_number(part) for _, part in parts) and len(parts) <= MOST_BARS and (len(parts) > 3 or not named):
         return draw_bars([float(part) for _, part in parts], view, [str(label) for label, _ in parts] if named else ())
     types = _types(value, declared, rule)
+    view = replace(view, above=_within([part for _, part in parts], view.above))
 
     def shown(label: Any, part: Any) -> Callable[[View], Picture]:
         return lambda inner: _drawn(part, types(label), registry, inner, depth - 1)
@@ -76,6 +78,17 @@ def _by_engine(value: Any, declared: PortType, registry: Registry, view: View, d
     if lines:
         cells.insert(min(len(cells), MOST - 2), ("", lambda inner: draw_text(lines, inner)))
     return draw_grid(cells, view)
+
+
+def _within(parts: list[Any], above: Callable[[Atom], Any]) -> Callable[[Atom], Any]:
+    """As `above`, with the other parts of the same record before what that was made from."""
+
+    def nearest(kind: Atom) -> Any:
+        own = (part for part in parts if isinstance(kind, type) and isinstance(part, kind))
+        found = next(own, None)
+        return above(kind) if found is None else found
+
+    return nearest
 
 
 def _types(value: Any, declared: PortType, rule: Any) -> Callable[[Any], PortType]:
@@ -122,7 +135,7 @@ def _is_short(value: Any) -> bool:
         return len(value) <= 60
     if isinstance(value, tuple | list):
         return len(value) <= 4 and all(_is_number(part) for part in value)
-    return value is None or rule_of(type(value)) is None and not isinstance(value, np.ndarray)
+    return value is None or (rule_of(type(value)) is None and not isinstance(value, np.ndarray))
 
 
 def _words(value: Any) -> str:

@@ -70,7 +70,7 @@ class View:
         if self.size is None or longest <= self.size:
             return array
         rows, columns = (picked(n, max(1, round(n * self.size / longest))) for n in array.shape[:2])
-        return array[rows[:, None], columns]
+        return array.take(rows, axis=0).take(columns, axis=1)
 
 
 def picked(length: int, count: int) -> NDArray[np.intp]:
