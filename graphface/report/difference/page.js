@@ -14,8 +14,8 @@
   root.append(head, make("div", {className: "columns"}, list, main));
   if (!found.nodes.length) { list.hidden = true; main.append(make("p", {className: "equal"}, "Nothing differs.")); return; }
 
-  // Bars grow with the logarithm of the difference: 1e-6 of the range is nothing, the whole range is full.
-  const share = node => node.size === null ? 1 : Math.max(0.03, Math.min(1, 1 + Math.log10(Math.max(node.size, 1e-6)) / 6));
+  // Bars grow with the square root of the difference: a hundredth of the range is a tenth of the bar.
+  const share = node => node.size === null ? 1 : Math.max(0.02, Math.min(1, Math.sqrt(node.size)));
   const all = make("button", {type: "button", className: "all", onclick: () => open(-1)}, "All nodes in one column");
   list.append(all);
   const entries = found.nodes.map((node, index) => {
@@ -53,7 +53,8 @@
       make("th", {scope: "row"}, path || "value"), make("td", {}, words), make("td", {}, at && `greatest at ${at}`))));
     tabs.hidden = node.panels.length < 2;
     tabs.replaceChildren(...node.panels.map((panel, i) => make("button", {type: "button", onclick: () => choose(node, i)}, panel.label)));
-    choose(node, 0);
+    // What has a value under each pixel says more than a drawing of all parts.
+    choose(node, Math.max(0, node.panels.findIndex(panel => panel.layers.every(layer => layer.data))));
   }
 
   // What was changed at the node; or links to the nodes above from which it has its difference.
@@ -82,7 +83,7 @@
     }));
     column.append(make("div", {className: "row heads"}, ...[...found.sides.map(s => s.label), `${found.sides[1].label} − ${found.sides[0].label}`].map(text => make("b", {}, text))));
     found.nodes.forEach((node, index) => {
-      const panel = node.panels[0], row = make("div", {className: "row"});
+      const panel = node.panels.find(p => p.layers.every(l => l.data)) || node.panels[0], row = make("div", {className: "row"});
       for (const layer of panel.layers)
         row.append(layer.message ? make("div", {className: "why"}, layer.message)
           : make("img", {src: url(layer, blobs), alt: `${node.name}, ${layer.label}`, width: layer.width, height: layer.height, loading: "lazy"}));

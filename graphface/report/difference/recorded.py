@@ -15,8 +15,9 @@ from typing import Any
 from graphface.errors import UnreadableFile, UsageError
 from graphface.graph.inputs import Bound
 from graphface.graph.wired import WiredGraph
+from graphface.report.page.read import read_report
 
-SUFFIXES = (".json",)
+SUFFIXES = (".json", ".html")
 
 
 @dataclass(frozen=True)
@@ -35,13 +36,13 @@ class Recorded:
 
 
 def read_recorded(path: Path) -> Recorded:
-    """Read a trace.
+    """Read a trace, or the one inside a report.
 
     Raises:
-        UnreadableFile: it is none.
+        UnreadableFile: it is neither.
     """
     try:
-        held = json.loads(path.read_text(encoding="utf-8"))
+        held = read_report(path) if path.suffix.lower() == ".html" else json.loads(path.read_text(encoding="utf-8"))
         return Recorded(path, str(held["document"]), dict(held["inputs"]), tuple(held["nodes"]))
     except OSError as error:
         raise UnreadableFile(path, error.strerror or str(error)) from None

@@ -39,7 +39,9 @@ def measured(part: PartDifference) -> str:
         told.append(f"by up to {short(part.greatest)} of a range of {short(part.span)} (mean {short(part.mean)}{noise})")
     if part.box is not None:
         left, top, width, height = part.box
-        told.append(f"{percent(part.share)} of pixels, within x {left}..{left + width - 1}, y {top}..{top + height - 1}")
+        everywhere = (height, width) == part.shape[:2]
+        where = "" if everywhere else f", within x {left}..{left + width - 1}, y {top}..{top + height - 1}"
+        told.append(f"{percent(part.share)} of pixels{where}")
     elif len(part.position) > 0:
         told.append(f"{percent(part.share)} of values")
     return "; ".join(told)
