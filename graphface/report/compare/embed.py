@@ -1,20 +1,20 @@
 """A page that needs no other file: scripts, styles, pictures and data inside it.
 
-Words from graphs and files travel as JSON in which no "<" stands, and scripts put them into the page as text. A policy
-in the page forbids it to load anything.
+Words from graphs and files travel as JSON in which no "<" stands, and the script puts them into the page as text. A
+policy in the page has the browser run this one script, known by its hash, and load nothing.
 """
 
 from __future__ import annotations
 
 import json
+from base64 import b64encode
 from dataclasses import asdict
+from hashlib import sha256
 from html import escape
 from importlib.resources import files
 from typing import Any
 
 from graphface.report.blobs import Sheet
-
-_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 
 
 def page(title: str, body: str, *, styles: list[str], scripts: list[str], data: dict[str, Any]) -> str:
@@ -25,10 +25,14 @@ def page(title: str, body: str, *, styles: list[str], scripts: list[str], data: 
     """
     style = "\n".join([_asset("viewer.css"), *styles])
     script = "\n".join([_asset("viewer.js"), *scripts])
-    blocks = "\n".join(f'<script type="application/json" id="{key}">{inert(held)}</script>' for key, held in data.items())
+    digest = b64encode(sha256(f"\n{script}\n".encode()).digest()).decode("ascii")
+    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
+    blocks = "\n".join(
+        f'<script type="application/json" id="{key}">{inert(held)}</script>' for key, held in data.items()
+    )
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{escape(title)}</title>\n<style>\n{style}\n</style></head>\n<body>\n{body}\n{blocks}\n"
         f"<script>\n{script}\n</script></body></html>\n"

@@ -155,9 +155,9 @@ const GraphfaceCompare = (() => {
       this.scaleText = make("span", {className: "gc-scale"});
       this.gaining = make("span", {className: "gc-option"}, "gain ", this.gainSlider, " ", this.scaleText);
       this.maskBox = make("input", {type: "checkbox", onchange: e => { this.masked = e.target.checked; this.place(); }});
-      this.masking = make("label", {className: "gc-option", title: "key m"}, this.maskBox, " mask of what differs");
+      this.masking = make("label", {className: "gc-option", title: "red where anything differs, however little (key m)"}, this.maskBox, " mask");
       this.markBox = make("input", {type: "checkbox", checked: true, onchange: e => { this.marked = e.target.checked; this.place(); }});
-      this.marking = make("label", {className: "gc-option", title: "key b"}, this.markBox, " box and greatest");
+      this.marking = make("label", {className: "gc-option", title: "a box around all that differs, a ring at the greatest difference (key b)"}, this.markBox, " marks");
       this.zoomText = make("button", {type: "button", className: "gc-zoom", title: "fit (key 0); wheel or + and - zoom", onclick: () => this.fit()});
       this.bar = make("div", {className: "gc-bar"}, group, this.pairing, this.flickering, this.gaining, this.masking, this.marking, this.zoomText);
     }
@@ -284,7 +284,7 @@ const GraphfaceCompare = (() => {
         pane.images[1].style.visibility = this.flipped ? "visible" : "hidden";
       } else if (this.mode === "wipe") pane.title.replaceChildren(make("span", {}, a.label), make("span", {className: "gc-right"}, b.label));
       else pane.title.replaceChildren(a.label, dim(a.note));
-      if (a.title && this.mode === "side") pane.title.title = a.title;
+      pane.title.title = this.mode === "side" ? [a.title, a.note].filter(Boolean).join("\n") : "";
     }
 
     placeWipe(pane) {
@@ -298,7 +298,7 @@ const GraphfaceCompare = (() => {
       if (!this.found || !this.panes.length || !this.panes[0].canvas) return;
       if (this.found.why) { this.scaleText.textContent = ""; return; }
       paint(this.panes[0].canvas, this.found, this.gain);
-      const reach = short(this.found.scale / this.gain);
+      const reach = short(+(this.found.scale / this.gain).toPrecision(3));
       this.scaleText.textContent = `grey is 0, black −${reach}, white +${reach}`;
     }
 

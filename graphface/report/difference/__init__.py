@@ -1,9 +1,9 @@
 """Which nodes of two runs differ, by how much, where and why; and which node of a run first leaves known-good values.
 
-    from graphface.report.difference import compare
+from graphface.report.difference import compare
 
-    found = compare(relight.request(inputs), other.request(inputs))
-    found.first.name, found.first.parts, found.first.caused
+found = compare(relight.request(inputs), other.request(inputs))
+found.first.name, found.first.parts, found.first.caused
 """
 
 from graphface.report.difference.compare import compare

@@ -59,7 +59,11 @@ class Comparison:
         if evaluator is None or evaluator.memory is None:
             given = evaluator or Evaluator()
             evaluator = Evaluator(
-                memory=MemoryTier(), disk=given.disk, threads=given.threads, guard=given.guard, observers=given.observers
+                memory=MemoryTier(),
+                disk=given.disk,
+                threads=given.threads,
+                guard=given.guard,
+                observers=given.observers,
             )
         self.labels = labels
         self.sides = Side(one, evaluator), Side(other, evaluator)

@@ -103,12 +103,16 @@ class GoldenComparison:
             why = now.declined.get(name, "nothing that is asked for needs it") if there else "there is no such node now"
             return NodeDifference(name, operators, "only there", words=why)
         if name in now.failures:
-            return None if name in good.failed else NodeDifference(
-                name, operators, "failed", reasons=reasons, words=f"now: {now.failures[name]}"
+            return (
+                None
+                if name in good.failed
+                else NodeDifference(name, operators, "failed", reasons=reasons, words=f"now: {now.failures[name]}")
             )
         if name in now.blocked:
             words = "now: a node above it failed"
-            return NodeDifference(name, operators, "failed", reasons=reasons, words=words) if name in good.nodes else None
+            return (
+                NodeDifference(name, operators, "failed", reasons=reasons, words=words) if name in good.nodes else None
+            )
         if name not in good.nodes:
             return NodeDifference(name, operators, "only here", words="no known-good value of it")
         try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Protocol
@@ -65,9 +66,7 @@ def write_page(
         temporary.write_text(text, encoding="utf-8")
 
 
-def page_text(
-    compared: Compared, found: Differences, *, size: int = SIZE, titles: tuple[str, str] = ("", "")
-) -> str:
+def page_text(compared: Compared, found: Differences, *, size: int = SIZE, titles: tuple[str, str] = ("", "")) -> str:
     """The HTML of the page."""
     drawn = _Drawn(compared, found, size)
     nodes = [drawn.node(node) for node in found.nodes]
@@ -147,6 +146,8 @@ class _Drawn:
         whole = self._sides[side].type_of(node.name)
         declared = field_type(whole, steps) or whole
         picture = draw(value, declared, self._registry, self._sides[side].view(node.name, self._size))
+        if not path and self._fields.get(node.name):
+            picture = replace(picture, data=None)  # its fields, which have their own pictures, have the values
         return layer(self.blobs.sheet(path, str(declared), picture), label)
 
     def _marks(self, parts: list[PartDifference], values: list[Any], layers: list[dict[str, Any]]) -> dict[str, Any]:

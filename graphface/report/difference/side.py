@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphface.cache.memory import MISSING
-from graphface.errors import GraphfaceError, NodeError, RunFailed
+from graphface.errors import GraphfaceError, RunFailed
 from graphface.evaluate.evaluator import Evaluator
 from graphface.graph.demand import declined_with, demanded, take
 from graphface.graph.keys import Declined
@@ -148,4 +148,3 @@ class Side:
 def failure_of(error: GraphfaceError) -> str:
     """Why a value could not be had."""
     return "; ".join(f.reason for f in error.failures) if isinstance(error, RunFailed) else str(error)
-

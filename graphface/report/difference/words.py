@@ -36,7 +36,9 @@ def measured(part: PartDifference) -> str:
         told.append(f"{part.non_finite} values are not finite on one side only")
     if part.greatest > 0:
         noise = f", PSNR {part.psnr:.1f} dB" if part.psnr is not None else ""
-        told.append(f"by up to {short(part.greatest)} of a range of {short(part.span)} (mean {short(part.mean)}{noise})")
+        told.append(
+            f"by up to {short(part.greatest)} of a range of {short(part.span)} (mean {short(part.mean)}{noise})"
+        )
     if part.box is not None:
         left, top, width, height = part.box
         everywhere = (height, width) == part.shape[:2]
