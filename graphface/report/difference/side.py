@@ -7,6 +7,7 @@ two runs of large pictures fit where the memory tier fits.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from graphface.cache.memory import MISSING
@@ -16,6 +17,7 @@ from graphface.graph.demand import declined_with, demanded, take
 from graphface.graph.keys import Declined
 from graphface.graph.request import Request, request
 from graphface.graph.structure import Ref, Step
+from graphface.record import Record
 from graphface.report.above import above
 from graphface.values.picture import View
 from graphface.values.port_types import PortType
@@ -24,19 +26,22 @@ from graphface.values.port_types import PortType
 class Side:
     """A request after its run.
 
+    Args:
+        evaluator: where it runs, or ran. records: of its run, where that is over already.
+
     Attributes:
         needed: the slots that the targets need, by name. declined: why a node that lies behind a declined port, and
             nowhere else, was not needed; by name.
         failures: what went wrong, by node; blocked: the nodes that had to wait for those.
     """
 
-    def __init__(self, asked: Request, evaluator: Evaluator) -> None:
+    def __init__(self, asked: Request, evaluator: Evaluator, records: Sequence[Record] | None = None) -> None:
         self.request = asked
         self._evaluator = evaluator
         self.failures: dict[str, str] = {}
         self.blocked: set[str] = set()
         self._answers: dict[str, dict[str, str]] = {}
-        self._run()
+        self._learn(_ran(asked, evaluator) if records is None else records)
         self.needed: dict[str, int] = {}
         self.declined: dict[str, str] = {}
         self._walk()
@@ -62,13 +67,8 @@ class Side:
         """How a needed node's value is drawn: what stands above it is looked through as far as it is at hand."""
         return View(size, above(self.request, self.needed[name], self._found))
 
-    def _run(self) -> None:
-        try:
-            records = self._evaluator.run(self.request).records
-        except RunFailed as error:
-            records = error.records
-            for failure in error.failures:
-                self.failures[failure.node] = failure.reason
+    def _learn(self, records: Sequence[Record]) -> None:
+        """What failed, what was blocked and what was declined; by key, since equal nodes share a record."""
         names: dict[bytes, list[str]] = {}
         for slot, name in enumerate(self.request.graph.names):
             names.setdefault(self.request.key(slot), []).append(name)
@@ -77,8 +77,7 @@ class Side:
                 node, _, port = record.name.rpartition(".")
                 self._answers.setdefault(node, {})[port] = record.reason
             elif record.state == "failed":
-                for twin in names[record.key]:
-                    self.failures[twin] = self.failures.get(record.name, record.reason)
+                self.failures.update(dict.fromkeys(names[record.key], record.reason))
             elif record.state == "blocked":
                 self.blocked.update(names[record.key])
 
@@ -143,6 +142,13 @@ class Side:
 
     def _given(self) -> dict[str, Any]:
         return {b.name: b for b in self.request.bound if b is not None}
+
+
+def _ran(asked: Request, evaluator: Evaluator) -> Sequence[Record]:
+    try:
+        return evaluator.run(asked).records
+    except RunFailed as error:
+        return error.records
 
 
 def failure_of(error: GraphfaceError) -> str:
