@@ -19,12 +19,12 @@
 
   const cases = make("select", {id: "case", onchange: () => show()}, ...ablated.cases.map((c, i) => make("option", {value: i}, c.label)));
   const places = make("select", {id: "place", onchange: () => show()});
-  const menus = make("div", {className: "menus"},
-    make("label", {}, "Show ", places), make("label", {hidden: ablated.cases.length < 2}, "of ", cases));
   const area = make("div", {className: "viewer"});
-  root.append(make("h1", {}, ablated.title), make("div", {className: "scroll"}, table), make("p", {className: "sharing"}, ablated.sharing,
-    " A line of the table, or its number, chooses the variant that wipe, flicker and difference show. Green is the best of a column."), menus, area);
+  const hint = "A line, or its number, chooses what flicker, wipe and difference show; green is the best of a column.";
+  root.append(make("h1", {}, ablated.title), make("div", {className: "scroll"}, table),
+    make("p", {className: "sharing", title: ablated.sharing}, `${hint} ${ablated.sharing}`), area);
   const viewer = GraphfaceCompare(area, blobs);
+  viewer.bar.prepend(make("label", {}, "Show ", places), make("label", {hidden: ablated.cases.length < 2}, "of ", cases));
 
   let variant = Math.min(1, names.texts.length - 1), first = 0;
 
