@@ -32,9 +32,9 @@ if TYPE_CHECKING:
         UnwritableFile,
         UsageError,
     )
-    from graphface.evaluate.evaluator import Evaluator, Result
+    from graphface.evaluate.evaluator import Evaluator
     from graphface.evaluate.observe import Observer
-    from graphface.facade import Graph, load
+    from graphface.facade import Graph, Result, load
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.packs import Pack
     from graphface.registry import Registry
@@ -67,7 +67,7 @@ _HOMES = {
     "Observer": "evaluate.observe",
     "Pack": "packs",
     "Registry": "registry",
-    "Result": "evaluate.evaluator",
+    "Result": "facade",
     "RunError": "errors",
     "RunFailed": "errors",
     "UnreadableFile": "errors",

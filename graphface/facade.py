@@ -9,6 +9,7 @@ Loading checks everything; what is left to fail in a run are the operators thems
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -17,11 +18,15 @@ from graphface.cache.memory import MemoryTier
 from graphface.document.compose import Choices, compose
 from graphface.document.present_names import with_present_names
 from graphface.document.source import read_source
-from graphface.evaluate.evaluator import Evaluator, Result
+from graphface.errors import UsageError
+from graphface.evaluate import evaluator as evaluation
+from graphface.evaluate.evaluator import Evaluator
 from graphface.graph.request import Request, request
 from graphface.graph.wired import WiredGraph
 from graphface.registry import Registry, default_registry
-from graphface.report.table import graph_table
+from graphface.report import picture_size
+from graphface.report.drawing.formats import write_drawing
+from graphface.report.drawing.svg import draw_svg
 
 
 def load(
@@ -59,6 +64,38 @@ def load(
     return Graph(with_present_names(composition, registry), registry)
 
 
+@dataclass(eq=False)
+class Result(evaluation.Result):
+    """The outputs of a run by name; shows itself in a notebook, and as a report."""
+
+    evaluator: Evaluator | None = field(default=None, repr=False)
+
+    def report(self, path: str | Path, *, size: int = picture_size.DEFAULT) -> None:
+        """Write the run as one HTML page with a picture of every value (see `graphface run --report`).
+
+        Values are looked up by their keys where they are kept; of what is kept nowhere the page says so in words. When
+        the nodes ran is not known afterwards, so the page has no timeline.
+
+        Args:
+            size: pixels of a picture's longer side.
+
+        Raises:
+            UnwritableFile: the folder is missing or cannot be written to.
+        """
+        from graphface.report.page.html import check_report, write_report
+        from graphface.report.recorder import recorded
+
+        if self.request is None or self.evaluator is None:
+            raise UsageError("this result does not know its run")
+        check_report(Path(path))
+        write_report(recorded(self.request, self.records, self.outputs, self.evaluator.find, size), Path(path))
+
+    def _repr_html_(self) -> str:
+        from graphface.report.outputs import outputs_html
+
+        return outputs_html(self.outputs, self.request) if self.request is not None else ""
+
+
 class Graph(WiredGraph):
     """A wired graph that runs on an evaluator and shows itself in a notebook; see `load`."""
 
@@ -77,14 +114,24 @@ class Graph(WiredGraph):
             InputError, UnreadableFile: an input is missing or does not fit. RunFailed: a node failed.
         """
         evaluator = evaluator if evaluator is not None else shared_evaluator()
-        return evaluator.run(request(self, inputs, outputs))
+        asked = request(self, inputs, outputs)
+        done = evaluator.run(asked)
+        return Result(done.outputs, done.records, asked, evaluator)
 
     def request(self, inputs: Mapping[str, Any] | None = None, outputs: Iterable[str] | None = None) -> Request:
         """What an evaluator runs, and what can be planned and explained; see `graphface.graph.request`."""
         return request(self, inputs or {}, outputs)
 
+    def draw(self, path: str | Path) -> None:
+        """Draw the graph into a file: .html (zooms and folds), .svg, .png, .mmd (Mermaid) or .dot (Graphviz).
+
+        Raises:
+            RefusedOutput: no drawing has this suffix, or the folder is missing or read-only.
+        """
+        write_drawing(self, Path(path))
+
     def _repr_html_(self) -> str:
-        return graph_table(self)
+        return f'<div style="overflow: auto; max-height: 85vh">{draw_svg(self)}</div>'
 
 
 @cache

@@ -17,7 +17,7 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from graphface.cli import ablate, assets, cache, diff, explain, new, nodes, plan, run, schema, show
+from graphface.cli import ablate, assets, cache, diff, draw, explain, new, nodes, plan, run, schema, show
 from graphface.packs import load_entry_point
 
 ENTRY_POINTS = "graphface.commands"
@@ -40,6 +40,7 @@ def build() -> TyperGroup:
     app.command("diff")(diff.diff)
     app.command("ablate")(ablate.ablate)
     app.command("show")(show.show)
+    app.command("draw")(draw.draw)
     app.command("nodes")(nodes.nodes)
     app.command("new")(new.new)
     app.command("schema")(schema.schema)

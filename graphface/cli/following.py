@@ -7,6 +7,8 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from graphface.evaluate.observe import Observer
+from graphface.report.page.html import check_report, write_report
+from graphface.report.recorder import Find, Recorder
 from graphface.report.trace import Trace
 from graphface.values.writing import check_folder
 
@@ -20,6 +22,9 @@ class Follower(Observer):
         Raises:
             UsageError: it could not.
         """
+
+    def stopped(self, error: BaseException) -> None:
+        """The run ended with an error, which is raised when everything is written."""
 
     def write(self) -> None:
         """Write what was followed; called once, also where the run failed or was interrupted."""
@@ -39,6 +44,23 @@ class TraceFile(Trace, Follower):
         self.write_to(self._path)
 
 
+class ReportFile(Recorder, Follower):
+    """`--report run.html`."""
+
+    def __init__(self, path: Path, size: int, find: Find) -> None:
+        super().__init__(find, size)
+        self._path = path
+
+    def check(self) -> None:
+        check_report(self._path)
+
+    def stopped(self, error: BaseException | None) -> None:
+        Recorder.stopped(self, error)
+
+    def write(self) -> None:
+        write_report(self, self._path)
+
+
 @contextmanager
 def written(followers: Sequence[Follower]) -> Iterator[None]:
     """Inside the block a run is followed; after it everything is written, whatever happened in the block."""
@@ -47,4 +69,9 @@ def written(followers: Sequence[Follower]) -> Iterator[None]:
     with ExitStack() as stack:
         for follower in reversed(followers):
             stack.callback(follower.write)
-        yield
+        try:
+            yield
+        except BaseException as error:
+            for follower in followers:
+                follower.stopped(error)
+            raise

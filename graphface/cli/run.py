@@ -25,6 +25,8 @@ from graphface.cli.options import (
     read_inputs,
 )
 
+from graphface.report import picture_size
+
 if TYPE_CHECKING:
     from graphface.cli.following import Follower
     from graphface.evaluate.evaluator import Evaluator
@@ -54,6 +56,18 @@ def run(
     peaks: Annotated[
         bool, typer.Option("--peaks", help="Measure each node's peak of memory for --trace: one thread, slower.")
     ] = False,
+    report: Annotated[
+        Path | None,
+        typer.Option(metavar="run.html", help="Write a page with a picture of every value, also where the run fails."),
+    ] = None,
+    report_size: Annotated[
+        int, typer.Option(
+            metavar="PIXELS",
+            min=picture_size.SMALLEST,
+            max=picture_size.LARGEST,
+            help="The longer side of the report's pictures.",
+        ),
+    ] = picture_size.DEFAULT,
     times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
     maps: Annotated[
         list[str],
@@ -68,12 +82,12 @@ def run(
     import os
 
     from graphface.cache.memory import MemoryTier
-    from graphface.cli.following import TraceFile
+    from graphface.cli.following import Follower, ReportFile, TraceFile
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_times, print_warnings
     from graphface.settings import memory_budget
 
-    _check_options(guard, trace, peaks=peaks, maps=maps, memory=memory)
+    _check_options(guard, trace, report, peaks=peaks, maps=maps, memory=memory)
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     given = read_inputs(inputs)
     said: list[str] = []
@@ -88,7 +102,8 @@ def run(
         if maps:
             run_map(loaded, output, given, maps, evaluator, records)
         else:
-            followers = [TraceFile(trace, peaks=peaks)] if trace is not None else []
+            followers: list[Follower] = [TraceFile(trace, peaks=peaks)] if trace is not None else []
+            followers += [ReportFile(report, report_size, evaluator.find)] if report is not None else []
             records += run_once(loaded, output, given, evaluator, followers, history=cache)
     finally:
         print_warnings([*(f"{r.name}: {w}" for r in records for w in r.warnings), *said])
@@ -96,7 +111,9 @@ def run(
             print_times(records, title="all combinations" if maps else "")
 
 
-def _check_options(guard: str, trace: Path | None, *, peaks: bool, maps: list[str], memory: str | None) -> None:
+def _check_options(
+    guard: str, trace: Path | None, report: Path | None, *, peaks: bool, maps: list[str], memory: str | None
+) -> None:
     """Refuse options that do not go together."""
     from graphface.errors import UsageError
 
@@ -106,6 +123,8 @@ def _check_options(guard: str, trace: Path | None, *, peaks: bool, maps: list[st
         raise UsageError("--peaks is measured for the trace; add --trace run.json")
     if maps and trace is not None:
         raise UsageError("--trace and --peaks follow one run; leave them out with --map")
+    if maps and report is not None:
+        raise UsageError("--report shows one run; leave it out with --map")
     if memory is not None and not maps:
         raise UsageError("--memory is what is kept from one combination of --map to the next; one run keeps nothing")
 

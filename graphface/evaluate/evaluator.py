@@ -19,10 +19,14 @@ from graphface.values.frozen import freeze
 
 @dataclass(eq=False)
 class Result(Mapping[str, Any]):
-    """The outputs of a run by name, and the `records` of every node it touched."""
+    """The outputs of a run by name, and the `records` of every node it touched.
+
+    `request` is what was asked; through it a result keeps its graph and its inputs alive.
+    """
 
     outputs: dict[str, Any]
     records: list[Record] = field(default_factory=list, repr=False)
+    request: Request | None = field(default=None, repr=False)
 
     def __getitem__(self, name: str) -> Any:
         return self.outputs[name]
@@ -86,7 +90,7 @@ class Evaluator:
             return Caller(request, values, self.guard, self._finite, hooks)
 
         values, records = Run(request, self, caller, hooks, self.threads, self.in_flight).go()
-        return Result(values, records)
+        return Result(values, records, request)
 
     def find(self, key: bytes, step: Step | None) -> tuple[Any, State]:
         """A memoized value and the tier that had it, or `MISSING`."""

@@ -1,1 +1,1 @@
-"""What was done and why, told to people: trace, history, explanation, timings, tables, the terminal."""
+"""What was done and why, told to people: trace, history, explanation, timings, drawings, the terminal."""

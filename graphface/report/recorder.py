@@ -12,8 +12,8 @@ import threading
 import time
 import weakref
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -28,17 +28,18 @@ from graphface.record import Record, State
 from graphface.report.above import above
 from graphface.report.array_figures import Figures, figures
 from graphface.report.blobs import Blobs, Sheet
+from graphface.report.picture_size import DEFAULT
 from graphface.report.trace import Trace
 from graphface.report.untouched import untouched
 from graphface.values.frozen import arrays_in
 from graphface.values.picture import View
 
-DEFAULT_SIZE = 256
-"""Pixels of a picture's longer side."""
-SMALLEST, LARGEST = 32, 4096
-
 Find = Callable[[bytes, Step | None], tuple[Any, State]]
 """From a key to its value and the tier that had it, or `MISSING`: `Evaluator.find`."""
+
+
+HAD = frozenset(("ran", "memory", "disk"))
+"""The states in which a run had a node's value."""
 
 
 @dataclass
@@ -73,7 +74,7 @@ class Recorder(Observer):
         seconds: of the run, `drawing` of them for this report.
     """
 
-    def __init__(self, find: Find, size: int = DEFAULT_SIZE) -> None:
+    def __init__(self, find: Find, size: int = DEFAULT) -> None:
         self.size = size
         self.trace = Trace()
         self.blobs = Blobs()
@@ -113,8 +114,10 @@ class Recorder(Observer):
         entry = self.seen[slot]
         entry.record, entry.reason = record, record.reason
         entry.start, entry.thread = self._started.get(record.name), self.trace.threads.get(record.name, "")
-        if record.state in ("ran", "memory", "disk"):
+        if record.state in HAD and value is not MISSING:
             self._take(entry, value)
+        elif record.state in HAD:
+            entry.reason = "its value is not kept any more"
         self.drawing += time.perf_counter() - began
 
     def run_finished(self, records: Sequence[Record]) -> None:
@@ -123,7 +126,7 @@ class Recorder(Observer):
         self.seconds = time.perf_counter() - self._began
         self.trace.run_finished(records)
         began = time.perf_counter()
-        states = {record.key for record in records if record.state in ("ran", "memory", "disk")}
+        states = {record.key for record in records if record.state in HAD}
         if any(self.request.key(ref.slot) not in states for ref in self.request.targets.values()):
             self.stopped(sys.exception())
         self._fill(records)
@@ -154,7 +157,7 @@ class Recorder(Observer):
             if twin is not None:
                 entry.sheets, entry.arrays = twin.sheets, twin.arrays
                 continue
-            value = self._value_of(entry.slot)
+            value = self.value_of(entry.slot)
             if value is not MISSING and value is not None:
                 self._take(entry, value)
 
@@ -167,7 +170,7 @@ class Recorder(Observer):
         if entry.record is not None and entry.record.state != "ran":
             entry.record.bytes = sum(array.nbytes for _, array in arrays_in(value))
         self.trace.summaries[graph.names[slot]] = summary(value, entry.arrays)
-        view = View(self.size, above(self.request, slot, self._value_of))
+        view = View(self.size, above(self.request, slot, self.value_of))
         for fields, part in _parts(value, self._fields.get(slot, ())):
             declared = graph.type_of(Ref(slot, fields))
             picture = draw(part, declared, graph.registry, view)
@@ -182,7 +185,7 @@ class Recorder(Observer):
         self._measured[id(array)] = weakref.ref(array), found
         return found
 
-    def _value_of(self, slot: int) -> Any:
+    def value_of(self, slot: int) -> Any:
         """The value of a slot while the run, a tier or a graph input has it; else `MISSING`."""
         assert self.request is not None
         held = self._alive.get(slot)
@@ -212,6 +215,31 @@ class Recorder(Observer):
             self._alive[slot] = weakref.ref(value)
         except TypeError:  # a number: small, and nobody is drawn on one
             return
+
+
+def recorded(
+    request: Request, records: Sequence[Record], outputs: Mapping[str, Any], find: Find, size: int = DEFAULT
+) -> Recorder:
+    """What a recorder would have taken from a run that is over, as far as values are still kept.
+
+    Args:
+        outputs: the values of the request's targets.
+    """
+    held = {ref.slot: outputs[name] for name, ref in request.targets.items() if name in outputs and not ref.fields}
+    by_key = {request.key(slot): value for slot, value in held.items()}
+
+    def find_held(key: bytes, step: Step | None) -> tuple[Any, State]:
+        return (by_key[key], "ran") if key in by_key else find(key, step)
+
+    recorder = Recorder(find_held, size)
+    recorder.run_started(request)
+    slots = {name: slot for slot, name in enumerate(request.graph.names)}
+    for record in records:
+        value = recorder.value_of(slots[record.name]) if record.name in slots and record.state in HAD else MISSING
+        recorder.node_finished(replace(record), None, value)
+    recorder.run_finished(records)
+    recorder.seconds = 0.0
+    return recorder
 
 
 def fields_taken(request: Request) -> dict[int, set[tuple[str, ...]]]:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 
 from graphface.graph.structure import GraphInput, Ref, Step, field_type
 from graphface.graph.wired import WiredGraph
 from graphface.report.drawing.boxes import Box, Wire
 from graphface.report.drawing.marks import Mark
-from graphface.report.drawing.text_width import text_width
+from graphface.report.drawing.text_width import text_width, wrapped
 
 TITLE_SIZE, TEXT_SIZE, PORT_SIZE = 13.0, 11.0, 10.5
 HEADER, ROW, LINE, BAR, THUMBNAIL = 40.0, 16.0, 17.0, 6.0, 108.0
 INSET = 10.0
-_NARROWEST, _WIDEST = 112.0, 208.0
+_NARROWEST, _WITH_MORE, _WIDEST = 112.0, 150.0, 208.0
 _BOTTOM = 6.0
 FOLDED = (150.0, 56.0)
 """The size of a folded frame."""
@@ -71,6 +72,12 @@ class Node:
         return self.name.rpartition("/")[2]
 
     @property
+    def words(self) -> list[str]:
+        """The lines that its mark says; two where there is a reason."""
+        words = self.mark.words if self.mark is not None else ""
+        return wrapped(words, self.width - 2 * INSET, PORT_SIZE, 2)
+
+    @property
     def is_input(self) -> bool:
         return not self.family and not self.inputs
 
@@ -88,6 +95,11 @@ class Cord:
     out: Port
     target: Node
     into: Port
+
+    @property
+    def dimmed(self) -> bool:
+        """Whether nothing passes it, as one of its ends is skipped."""
+        return any(node.mark is not None and node.mark.dimmed for node in (self.source, self.target))
 
     @property
     def tooltip(self) -> str:
@@ -154,8 +166,8 @@ def _outputs(graph: WiredGraph, slot: int, taken: Sequence[tuple[str, ...]]) -> 
 def _of_input(
     given: GraphInput, outputs: Sequence[Port], results: Sequence[str], mark: Mark | None, thumbnail: str
 ) -> Node:
-    words = "input, has a default" if given.default is not None else "input"
-    words = "input, optional" if given.type.optional and given.default is None else words
+    optional = "optional input" if given.type.optional else "input"
+    words = "input with default" if given.default is not None else optional
     return Node(given.name, words, "", given.doc, (), outputs, results, mark, thumbnail, 0, 0)
 
 
@@ -184,16 +196,15 @@ def _sized(node: Node) -> Node:
     for row in range(max(len(node.inputs), len(node.outputs))):
         texts = [ports[row].text for ports in (node.inputs, node.outputs) if row < len(ports)]
         widths.append(sum(text_width(text, PORT_SIZE) for text in texts) + 2 * INSET + 12)
+    least = _WITH_MORE if node.thumbnail or (node.mark is not None and node.mark.reason) else _NARROWEST
+    node = replace(node, width=float(ceil(max(least, min(max(widths), _WIDEST)))))
     height = node.below_ports + _BOTTOM
     if node.thumbnail:
         height += THUMBNAIL + _BOTTOM
-    height += LINE * (bool(node.results) + bool(node.mark is not None and node.mark.words))
+    height += LINE * bool(node.results) + LINE * len(node.words)
     if node.mark is not None and node.mark.heat is not None:
         height += BAR
-    width = max(_NARROWEST, min(max(widths), _WIDEST))
-    if node.thumbnail:
-        width = max(width, 150.0)
-    return replace(node, width=float(round(width)), height=height)
+    return replace(node, height=height)
 
 
 def _cords(

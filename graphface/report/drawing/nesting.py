@@ -45,7 +45,6 @@ class Nesting:
         frames: by number, each after the frame around it.
         parent: of every box and frame; of the root, BORDER.
         ends: source and target of every wire, as numbers; that of a folded frame for the boxes inside it.
-        hidden: the boxes inside folded frames.
         bundles: for every bundle its source and how far below its top it leaves.
         hops: for every wire the links that it is made of, each with its frame.
     """
@@ -58,7 +57,6 @@ class Nesting:
         self._by_path = {"": self.root}
         self._folded_paths = folded
         shown = {box.name: self._place(number, box.name) for number, box in enumerate(boxes)}
-        self.hidden = {number for number, box in enumerate(boxes) if shown[box.name] != number}
         self.ends = [(shown[wire.source], shown[wire.target]) for wire in wires]
         self.bundles: list[tuple[int, float]] = []
         self._depth = self._depths()
@@ -83,10 +81,10 @@ class Nesting:
         frame = self._by_path[path.rpartition("/")[0]]
         for path in reversed(above):
             if frame in self.folded:
-                break
-            frame = self._add_frame(path, frame)
+                self._by_path[path] = frame
+            else:
+                frame = self._add_frame(path, frame)
         if frame in self.folded:
-            self._by_path.update(dict.fromkeys(above, frame))
             return frame
         self.parent[number] = frame
         self.frames[frame].children.append(number)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-_ROUNDS = 24
+_ROUNDS = 40
 Pull = tuple[int, float, float]
 """Another item, how far above it this item has to stand for a straight link, and the weight of the link."""
 
@@ -37,6 +37,8 @@ def straightened(
         numbers = range(len(columns)) if turn % 2 == 0 else range(len(columns) - 1, -1, -1)
         for number in numbers:
             _settle(columns[number], offsets[number], tops, sides)
+    for number in {0, len(columns) - 1}:  # the borders follow where the wires ended up
+        _settle(columns[number], offsets[number], tops, (before, after))
     return tops
 
 

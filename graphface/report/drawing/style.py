@@ -11,7 +11,7 @@ _SHAPES = f"""
 D text {{ font: {TEXT_SIZE}px system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif; stroke: none; }}
 D .name {{ font-size: {TITLE_SIZE}px; font-weight: 600; }}
 D .frame .name {{ font-size: 12px; }}
-D .port, D .reason, D .small {{ font-size: {PORT_SIZE}px; }}
+D .port, D .reason, D .count {{ font-size: {PORT_SIZE}px; }}
 D .output {{ font-weight: 600; }}
 D .out {{ text-anchor: end; }}
 D .wire {{ fill: none; stroke-width: 1.4; }}
@@ -25,6 +25,7 @@ D .failed .box {{ stroke-width: 3; }}
 D .node:focus {{ outline: none; }}
 D .node:focus .box, D .node:hover .box {{ stroke-width: 2.5; }}
 D .wire:hover {{ stroke-width: 3; }}
+D .frame:not(.folded) .count {{ display: none; }}
 """
 
 
@@ -47,7 +48,7 @@ def _colors(theme: Theme, hues: Iterable[int]) -> str:
 D .paper {{ fill: {c.paper}; }}
 D .box {{ fill: {c.box}; stroke: {c.edge}; }}
 D .node text, D .frame text {{ fill: {c.ink}; }}
-D .node .operator, D .node .port, D .node .reason, D .frame .small {{ fill: {c.muted}; }}
+D .node .operator, D .node .port, D .node .reason, D .frame .count {{ fill: {c.muted}; }}
 D .frame rect {{ fill: {c.frame}; stroke: {c.frame_edge}; }}
 D .folded rect {{ fill: {c.given}; }}
 D .wire {{ stroke: {c.wire}; }}

@@ -32,7 +32,7 @@ from graphface.report.drawing.layout import layout
 from graphface.report.drawing.marks import Mark
 from graphface.report.drawing.palette import heat_color, hue
 from graphface.report.drawing.style import style
-from graphface.report.drawing.text_width import fitted
+from graphface.report.drawing.text_width import fitted, text_width
 
 FRAME_SIZE = 12.0
 
@@ -87,18 +87,18 @@ def _allowed(character: str) -> bool:
 def _frame(frame: str, rect: Rect, is_folded: bool, drawn: Figure) -> str:
     inside = sum(node.name.startswith(f"{frame}/") for node in drawn.nodes)
     title = fitted(frame.rpartition("/")[2], rect.width - 2 * INSET, FRAME_SIZE, bold=True)
-    count = f'<text class="small" x="{INSET:g}" y="40">{inside} boxes</text>' if is_folded else ""
     return (
         f'<g class="frame{" folded" if is_folded else ""}" data-frame="{escape(frame)}" '
         f'transform="translate({rect.x:g} {rect.y:g})"><title>{escape(frame)}: {inside} boxes</title>'
         f'<rect width="{rect.width:g}" height="{rect.height:g}" rx="8"/>'
-        f'<text class="name" x="{INSET:g}" y="20">{escape(title)}</text>{count}</g>'
+        f'<text class="name" x="{INSET:g}" y="20">{escape(title)}</text>'
+        f'<text class="count" x="{INSET:g}" y="40">{inside} boxes</text></g>'
     )
 
 
 def _wire(cord: Cord, placed: Layout, number: int) -> str:
     kind = "wire lazy" if cord.into.lazy else "wire"
-    if cord.source.mark is not None and cord.source.mark.dimmed:
+    if cord.dimmed:
         kind += " dimmed"
     if number in placed.back:
         kind += " back"
@@ -149,20 +149,14 @@ def _ports(left: Port | None, right: Port | None, width: float) -> Iterator[str]
     room = width - 2 * INSET - (12 if left is not None and right is not None else 0)
     of_left = fitted(left.text, room, PORT_SIZE) if left is not None else ""
     if left is not None and right is not None:
-        of_left = fitted(left.text, max(room / 2, room - _wide(right.text)), PORT_SIZE)
+        of_left = fitted(left.text, max(room / 2, room - text_width(right.text, PORT_SIZE)), PORT_SIZE)
     if left is not None:
         yield _dot(left, 0.0)
         yield f'<text class="port" x="{INSET:g}" y="{left.y + 3.7:g}">{escape(of_left)}</text>'
     if right is not None:
-        of_right = fitted(right.text, room - _wide(of_left), PORT_SIZE)
+        of_right = fitted(right.text, room - text_width(of_left, PORT_SIZE), PORT_SIZE)
         yield _dot(right, width)
         yield f'<text class="port out" x="{width - INSET:g}" y="{right.y + 3.7:g}">{escape(of_right)}</text>'
-
-
-def _wide(text: str) -> float:
-    from graphface.report.drawing.text_width import text_width
-
-    return text_width(text, PORT_SIZE)
 
 
 def _dot(port: Port, x: float) -> str:
@@ -184,8 +178,8 @@ def _below(node: Node, width: float) -> Iterator[str]:
         yield _text("output", INSET, y + 11, f"▸ {', '.join(node.results)}", room, TEXT_SIZE, bold=True)
         y += LINE
     mark = node.mark
-    if mark is not None and mark.words:
-        yield _text("reason", INSET, y + 11, mark.words, room, PORT_SIZE)
+    for line in node.words:
+        yield _text("reason", INSET, y + 11, line, room, PORT_SIZE)
         y += LINE
     if mark is not None and mark.heat is not None:
         share = min(max(mark.heat, 0.0), 1.0)

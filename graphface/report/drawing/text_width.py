@@ -36,6 +36,18 @@ def fitted(text: str, room: float, size: float, *, bold: bool = False) -> str:
     return text[:kept].rstrip() + _ELLIPSIS if kept else ""
 
 
+def wrapped(text: str, room: float, size: float, most: int) -> list[str]:
+    """The text in at most so many lines, broken at spaces; the last one is cut where there is more."""
+    words, lines = text.split(), []
+    while words and len(lines) < most - 1:
+        taken = 1
+        while taken < len(words) and text_width(" ".join(words[: taken + 1]), size) <= room:
+            taken += 1
+        lines.append(fitted(" ".join(words[:taken]), room, size))
+        del words[:taken]
+    return [*lines, fitted(" ".join(words), room, size)] if words else lines
+
+
 def _width(character: str) -> int:
     number = ord(character) - 32
     if 0 <= number < len(_WIDTHS):

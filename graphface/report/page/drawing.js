@@ -97,7 +97,12 @@ function focusOn(name, close = false) {
   const inside = (value, low, length, part) => value - part / 2 > low && value + part / 2 < low + length;
   const seen = inside(middle[0], drawing.box.x, drawing.box.width, width) && inside(middle[1], drawing.box.y, drawing.box.height, height);
   if (seen && !close) return;
-  show({ x: middle[0] - w / 2, y: middle[1] - h / 2, width: w, height: h });
+  show({ x: within(middle[0], w, drawing.all.width), y: within(middle[1], h, drawing.all.height), width: w, height: h });
+}
+
+// Where a window of this width begins that has a place in its middle, without leaving the drawing.
+function within(middle, width, whole) {
+  return width < whole ? Math.min(Math.max(middle - width / 2, 0), whole - width) : (whole - width) / 2;
 }
 
 function mark(name) {

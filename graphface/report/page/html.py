@@ -14,12 +14,13 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from graphface.errors import RefusedOutput
 from graphface.report.drawing.marks import Mark, MarkState
 from graphface.report.drawing.svg import draw_svg
 from graphface.report.page.model import model
 from graphface.report.page.read import RUN
 from graphface.report.recorder import Recorder
-from graphface.values.writing import beside
+from graphface.values.writing import beside, check_folder
 
 _SCRIPTS = ("element", "values", "viewer", "panel", "drawing", "timeline", "lists", "search", "page")
 """In this order, in one scope."""
@@ -34,6 +35,17 @@ def write_report(recorder: Recorder, path: Path) -> None:
     page = report_page(recorder)
     with beside(path) as temporary:
         temporary.write_text(page, encoding="utf-8")
+
+
+def check_report(path: Path) -> None:
+    """See before anything runs that a report could be written there.
+
+    Raises:
+        RefusedOutput: the folder is missing or read-only, the path is a folder, or its name is not that of a page.
+    """
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise RefusedOutput(path, "a report is a page; name it .html")
+    check_folder(path)
 
 
 def report_page(recorder: Recorder) -> str:

@@ -173,7 +173,7 @@ function parameters(node) {
       "tr",
       { class: one.set ? "set" : "" },
       element("th", { scope: "row" }, one.name),
-      element("td", { class: "number" }, one.value),
+      element("td", { class: "text" }, one.value),
       element("td", {}, one.set ? one.place : element("small", {}, "default")),
     ),
   );
