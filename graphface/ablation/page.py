@@ -38,9 +38,7 @@ def page_text(ablation: Ablation, pictures: Pictures) -> str:
             {"title": c.title, "meaning": c.meaning, "texts": list(c.texts), "best": sorted(c.best)}
             for c in shown_columns(ablation)
         ],
-        "cases": [
-            _case(ablation, place, shown) for place, shown in enumerate(pictures.cases)
-        ],
+        "cases": [_case(ablation, place, shown) for place, shown in enumerate(pictures.cases)],
     }
     assets = files("graphface.ablation")
     return page(

@@ -81,7 +81,9 @@ def _read(text: str, graph: Graph) -> Swap:
         return Swap(subject, subject, _overlays(subject, values, graph), text)
     step = _step(subject, graph)
     if step is not None:
-        named = _expanded(values, lambda: [o.name for o in (step.operator, *graph.registry.alternatives(step.operator))])
+        named = _expanded(
+            values, lambda: [o.name for o in (step.operator, *graph.registry.alternatives(step.operator))]
+        )
         return Swap("operator", step.name, tuple(_operator(value, step, graph, text) for value in named), text)
     return _parameter_swap(subject, values, text, graph)
 

@@ -107,7 +107,7 @@ def diff(
         write_page(done, found, out, size=size, titles=_titles(sides, golden))
         print(f"wrote {out}")
     print_warnings(said)
-    if found:
+    if found or found.failed_alike:
         raise typer.Exit(1)
 
 

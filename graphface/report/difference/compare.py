@@ -77,7 +77,9 @@ class Comparison:
     def differences(self, tolerance: Tolerance = EXACT) -> Differences:
         """Compare the values of all nodes whose keys differ."""
         one, other = self.sides
-        listed, below, idle, alike, equal = [], [], [], [], 0
+        listed: list[NodeDifference] = []
+        below: list[NodeDifference] = []
+        idle, alike, equal = [], [], 0
         for name in merged(list(one.needed), list(other.needed)):
             if name in one.needed and name in other.needed and self._key(0, name) == self._key(1, name):
                 equal += 1
@@ -95,7 +97,16 @@ class Comparison:
             else:
                 (below if all(tolerance.allows(part) for part in found.parts) else listed).append(found)
         both = len(one.needed.keys() & other.needed.keys())
-        return Differences(self.labels, _told(listed), _told(below), idle, alike, both, equal, tolerance)
+        return Differences(
+            self.labels,
+            _told(listed),
+            _told(below),
+            without_effect=idle,
+            failed_alike=alike,
+            compared=both,
+            equal=equal,
+            tolerance=tolerance,
+        )
 
     def _node(self, name: str) -> NodeDifference | None:
         """A node whose keys differ or that one side lacks; None where it is blocked on both sides."""

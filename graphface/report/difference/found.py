@@ -57,6 +57,7 @@ class Differences:
         nodes: in an order that runs. below: those that differ, but by no more than the tolerance.
         without_effect: nodes that were changed themselves and have equal values all the same, with their reasons.
         failed_alike: nodes that fail on both sides in the same way, with the message.
+        not_compared: nodes that cannot be, with the reason.
         compared: how many nodes both sides have; equal: how many of them had the same key, and were not looked at.
     """
 
@@ -65,6 +66,7 @@ class Differences:
     below: Sequence[NodeDifference] = ()
     without_effect: Sequence[tuple[str, tuple[Reason, ...]]] = ()
     failed_alike: Sequence[tuple[str, str]] = ()
+    not_compared: Sequence[tuple[str, str]] = ()
     compared: int = 0
     equal: int = 0
     tolerance: Tolerance = EXACT

@@ -6,7 +6,6 @@ an operator that gives the same is no difference.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +25,8 @@ from graphface.values.picture import View
 from graphface.values.port_types import PortType
 
 RUN = "run.json"
+_HAD = ("ran", "memory", "disk")
+"""States of a node that has a value."""
 
 
 class Dumped:
@@ -33,16 +34,22 @@ class Dumped:
 
     Args:
         other: the side that is compared with it: says what types the values have, and what stands above them.
+
+    Attributes:
+        nodes: those with a value, each with what the folder's trace says of it. without: those whose value could not be
+            stored. failed: those that failed then.
     """
 
     def __init__(self, folder: Path, other: Side) -> None:
-        recorded = read_recorded(folder / RUN)
+        recorded = {str(node["name"]): node for node in read_recorded(folder / RUN).nodes}
+        inputs = {name for name, node in recorded.items() if node.get("operator") == "input"}
         self.folder = folder
         self._other = other
-        self.nodes: dict[str, Mapping[str, Any]] = {str(n["name"]): n for n in recorded.nodes if _has_value(n)}
-        self.failed: dict[str, str] = {
-            str(n["name"]): str(n.get("reason")) for n in recorded.nodes if n.get("state") == "failed"
-        }
+        stored = {path.relative_to(folder).with_suffix("").as_posix() for path in folder.rglob("*.npz")}
+        in_order = [*recorded, *sorted(stored - recorded.keys())]
+        self.nodes = {name: recorded.get(name, {}) for name in in_order if name in stored - inputs}
+        self.without = {name for name, node in recorded.items() if name not in stored and node.get("state") in _HAD}
+        self.failed = {name for name, node in recorded.items() if node.get("state") == "failed"}
 
     def value(self, name: str) -> Any:
         """The known-good value.
@@ -81,10 +88,12 @@ class GoldenComparison:
     def differences(self, tolerance: Tolerance = Tolerance(GOLDEN)) -> Differences:  # noqa: B008 - is frozen
         """Compare every node that has a dumped value, and name those that only one side has."""
         good, now = self.sides
-        listed, below, compared = [], [], 0
-        steps = [name for name in now.needed if now.request.graph.step(now.needed[name]) is not None]
-        for name in merged(list(good.nodes), steps):
-            if name in good.nodes and name not in now.needed and name in now.request.graph.inputs:
+        listed: list[NodeDifference] = []
+        below: list[NodeDifference] = []
+        compared = 0
+        steps = [name for name in now.needed if name not in now.request.graph.inputs]
+        for name in merged([n for n in good.nodes if n not in now.request.graph.inputs], steps):
+            if name not in good.nodes and (name in good.without or self._has_twin(name)):
                 continue
             found = self._node(name)
             compared += name in good.nodes and name in now.needed
@@ -92,7 +101,14 @@ class GoldenComparison:
                 continue
             slight = found.kind == "values" and all(tolerance.allows(part) for part in found.parts)
             (below if slight else listed).append(found)
-        return Differences(self.labels, listed, below, compared=compared, tolerance=tolerance)
+        unknown = [(name, "its value could not be stored in the folder") for name in steps if name in good.without]
+        return Differences(self.labels, listed, below, not_compared=unknown, compared=compared, tolerance=tolerance)
+
+    def _has_twin(self, name: str) -> bool:
+        """Whether an equal node, evaluated for both, stands in the folder."""
+        good, now = self.sides
+        key = now.request.key(now.needed[name])
+        return any(n in good.nodes for n, slot in now.needed.items() if now.request.key(slot) == key)
 
     def _node(self, name: str) -> NodeDifference | None:
         good, now = self.sides
@@ -144,7 +160,3 @@ class GoldenComparison:
         graph = self.sides[1].request.graph
         step = graph.step(graph.names.index(name)) if name in graph.names else None
         return step.operator.name if step is not None else ""
-
-
-def _has_value(node: Mapping[str, Any]) -> bool:
-    return node.get("state") in ("ran", "memory", "disk") and node.get("operator") != "input"

@@ -113,7 +113,8 @@ def rows(found: Differences) -> list[Sequence[str]]:
 def notes(found: Differences) -> list[str]:
     """What is worth knowing beside the differences."""
     idle = [f"{name}: {'; '.join(map(str, why))}, with no effect on its value" for name, why in found.without_effect]
-    return idle + [f"{name}: fails on both sides: {why}" for name, why in found.failed_alike]
+    alike = [f"{name}: fails on both sides: {why}" for name, why in found.failed_alike]
+    return [*idle, *alike, *(f"{name}: not compared: {why}" for name, why in found.not_compared)]
 
 
 def _row(node: NodeDifference) -> Sequence[str]:
