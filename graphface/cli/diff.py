@@ -148,17 +148,17 @@ def _titles(sides: list[str], golden: Path | None) -> tuple[str, str]:
 
 def _show(found: Differences, sides: list[str]) -> None:
     """Print the first difference, the table of all, and what else is worth knowing."""
-    from graphface.report.difference.words import HEADER, first_lines, notes, rows, summary
+    from graphface.report.difference.words import HEADER
     from graphface.report.terminal import print_table
 
     for label, text in zip(found.labels, sides if len(sides) == 2 else (), strict=False):
         print(f"{label}: {text}")
-    for line in first_lines(found):
+    for line in found.lines:
         print(line)
     if found:
         print()
-        print_table(HEADER, rows(found))
+        print_table(HEADER, found.rows)
         print()
-    print(summary(found))
-    for line in notes(found):
+    print(found.summary)
+    for line in found.notes:
         print(line)

@@ -7,7 +7,8 @@ found.first.name, found.first.parts, found.first.caused
 """
 
 from graphface.report.difference.compare import compare
-from graphface.report.difference.found import Differences, NodeDifference
+from graphface.report.difference.found import Differences
+from graphface.report.difference.node import NodeDifference
 from graphface.report.difference.values import PartDifference, differences
 
 __all__ = ["Differences", "NodeDifference", "PartDifference", "compare", "differences"]

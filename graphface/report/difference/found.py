@@ -2,50 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from html import escape
 
 from graphface.evaluate.reason import Reason
+from graphface.report.difference.node import NodeDifference
 from graphface.report.difference.tolerance import EXACT, Tolerance
-from graphface.report.difference.values import PartDifference
-
-Kind = Literal["values", "failed", "only here", "only there"]
-
-_OWN = ("operator", "code", "parameter", "wiring", "input", "lazy ports")
-
-
-@dataclass(frozen=True)
-class NodeDifference:
-    """One node, or graph input, that differs.
-
-    Attributes:
-        operators: on each side, "input" for a graph input, "" where there is none.
-        kind: the values differ; it failed on one side at least; only side A ("only there") or side B ("only here") has
-            or needs it.
-        parts: how far apart the values are, the largest difference first.
-        reasons: why the node was not the same to begin with; those of the node itself first. Empty where that is not
-            known (a dumped value says only what it is).
-        words: of a node that has no two values: what happened, or why one side has none.
-    """
-
-    name: str
-    operators: tuple[str, str]
-    kind: Kind
-    parts: tuple[PartDifference, ...] = ()
-    reasons: tuple[Reason, ...] = ()
-    words: str = ""
-
-    @property
-    def caused(self) -> tuple[Reason, ...]:
-        """The reasons that lie in the node itself: it would differ if everything above it were equal."""
-        return tuple(r for r in self.reasons if r.kind in _OWN)
-
-    @property
-    def relative(self) -> float:
-        """The greatest difference over the range of the first side's values; infinite where it has no size."""
-        return max((part.relative for part in self.parts), default=math.inf)
+from graphface.report.difference.words import HEADER, row, short, told_in_full
 
 
 @dataclass(frozen=True)
@@ -85,3 +49,45 @@ class Differences:
     def first(self) -> NodeDifference | None:
         """The first node in order that both sides have and that differs; where there is none, the first listed."""
         return next((node for node in self.nodes if node.kind in ("values", "failed")), next(iter(self.nodes), None))
+
+    @property
+    def rows(self) -> list[Sequence[str]]:
+        """A line for every node under `words.HEADER`: its part that differs most."""
+        return [row(node) for node in self.nodes]
+
+    @property
+    def summary(self) -> str:
+        """How many nodes differ, and how many were not even looked at."""
+        both = sum(node.kind in ("values", "failed") for node in self.nodes)
+        told = [f"{both} of {self.compared} nodes differ" if both else f"no node of {self.compared} differs"]
+        if alone := len(self.nodes) - both:
+            told.append(f"{alone} on one side only")
+        if self.below:
+            largest = max(node.relative for node in self.below)
+            told.append(f"{len(self.below)} differ within the tolerance of {self.tolerance} (up to {short(largest)})")
+        if self.equal:
+            told.append(f"{self.equal} have the same key: nothing to compare")
+        return "; ".join(told)
+
+    @property
+    def notes(self) -> list[str]:
+        """What is worth knowing beside the differences, a sentence each."""
+        idle = [f"{name}: {'; '.join(map(str, why))}, with no effect on its value" for name, why in self.without_effect]
+        alike = [f"{name}: fails on both sides: {why}" for name, why in self.failed_alike]
+        return [*idle, *alike, *(f"{name}: not compared: {why}" for name, why in self.not_compared)]
+
+    @property
+    def lines(self) -> list[str]:
+        """The first node that differs, in full."""
+        if self.first is None:
+            return []
+        first, *others = told_in_full(self.first)
+        return [f"first difference: {first}", *others]
+
+    def _repr_html_(self) -> str:
+        """The table, for a notebook."""
+        heads = "".join(f"<th>{escape(title.lstrip('>'))}</th>" for title in HEADER)
+        lines = ("".join(f"<td>{escape(cell)}</td>" for cell in cells) for cells in self.rows)
+        body = "".join(f"<tr>{line}</tr>" for line in lines)
+        table = f"<table><tr>{heads}</tr>{body}</table>" if self.nodes else ""
+        return f"<p>{escape(self.summary)}</p>{table}{''.join(f'<p>{escape(note)}</p>' for note in self.notes)}"

@@ -14,7 +14,8 @@ from graphface.evaluate.evaluator import Evaluator
 from graphface.evaluate.reason import Reason
 from graphface.graph.request import Request
 from graphface.report.difference.compare import merged
-from graphface.report.difference.found import Differences, NodeDifference
+from graphface.report.difference.found import Differences
+from graphface.report.difference.node import NodeDifference
 from graphface.report.difference.recorded import read_recorded
 from graphface.report.difference.side import Side, failure_of
 from graphface.report.difference.tolerance import GOLDEN, Tolerance

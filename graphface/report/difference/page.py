@@ -19,10 +19,11 @@ from graphface.pictures import draw
 from graphface.report.blobs import Blobs
 from graphface.report.compare.embed import layer, message, page
 from graphface.report.compare.mask import as_png, differing
-from graphface.report.difference.found import Differences, NodeDifference
+from graphface.report.difference.found import Differences
+from graphface.report.difference.node import NodeDifference
 from graphface.report.difference.side import Side
 from graphface.report.difference.values import PartDifference
-from graphface.report.difference.words import cause, measured, notes, place, short, summary, title
+from graphface.report.difference.words import cause, measured, place, short, title
 from graphface.report.recorder import fields_taken
 from graphface.values.frozen import arrays_in
 from graphface.values.picture import View
@@ -73,8 +74,8 @@ def page_text(compared: Compared, found: Differences, *, size: int = SIZE, title
     first = found.first
     data = {
         "sides": [{"label": label, "title": text} for label, text in zip(found.labels, titles, strict=True)],
-        "summary": summary(found),
-        "notes": notes(found),
+        "summary": found.summary,
+        "notes": found.notes,
         "nodes": nodes,
         "first": next((i for i, node in enumerate(found.nodes) if node is first), 0),
     }

@@ -1,11 +1,11 @@
-"""Differences in words: one sentence each, and the rows of a table."""
+"""A node that differs, in words and as a row of a table."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 
-from graphface.report.difference.found import Differences, NodeDifference
+from graphface.report.difference.node import NodeDifference
 from graphface.report.difference.values import PartDifference
 
 HEADER = ("node", "part", ">greatest", ">of range", ">mean", ">PSNR dB", ">differing", "cause")
@@ -74,12 +74,9 @@ def title(node: NodeDifference) -> str:
     return f"{node.name} ({both})" if both else node.name
 
 
-def first_lines(found: Differences) -> list[str]:
-    """The first node that differs: what was changed there, by how much and where."""
-    node = found.first
-    if node is None:
-        return []
-    lines = [f"first difference: {title(node)}"]
+def told_in_full(node: NodeDifference) -> list[str]:
+    """A node in lines: what was changed there, by how much it differs and where."""
+    lines = [title(node)]
     if cause(node):
         lines.append(f"    {cause(node)}")
     for part in node.parts[:4]:
@@ -90,34 +87,8 @@ def first_lines(found: Differences) -> list[str]:
     return lines
 
 
-def summary(found: Differences) -> str:
-    """How many nodes differ, and how many were not even looked at."""
-    both = [n for n in found.nodes if n.kind != "only here" and n.kind != "only there"]
-    alone = len(found.nodes) - len(both)
-    told = [f"{len(both)} of {found.compared} nodes differ" if both else f"no node of {found.compared} differs"]
-    if alone:
-        told.append(f"{alone} on one side only")
-    if found.below:
-        largest = max(n.relative for n in found.below)
-        told.append(f"{len(found.below)} differ within the tolerance of {found.tolerance} (up to {short(largest)})")
-    if found.equal:
-        told.append(f"{found.equal} have the same key: nothing to compare")
-    return "; ".join(told)
-
-
-def rows(found: Differences) -> list[Sequence[str]]:
-    """A line for every node under `HEADER`: its part that differs most."""
-    return [_row(node) for node in found.nodes]
-
-
-def notes(found: Differences) -> list[str]:
-    """What is worth knowing beside the differences."""
-    idle = [f"{name}: {'; '.join(map(str, why))}, with no effect on its value" for name, why in found.without_effect]
-    alike = [f"{name}: fails on both sides: {why}" for name, why in found.failed_alike]
-    return [*idle, *alike, *(f"{name}: not compared: {why}" for name, why in found.not_compared)]
-
-
-def _row(node: NodeDifference) -> Sequence[str]:
+def row(node: NodeDifference) -> Sequence[str]:
+    """A line of a table under `HEADER`: the part of the node that differs most."""
     if not node.parts:
         kinds = {"failed": "failed", "only here": "new", "only there": "gone"}
         return (node.name, kinds.get(node.kind, ""), "", "", "", "", "", cause(node))
