@@ -89,7 +89,7 @@ def ablate(
         "replace": dict(text.split("=", 1) for text in replaces),
         "variants": variants,
         "profiles": profiles,
-        "plugins": plugins,
+        "registry": base.registry,  # plug-ins loaded again would be other code, and nothing of them shared
     }
     done = run_ablation(
         graph,

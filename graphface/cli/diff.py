@@ -115,13 +115,13 @@ def _compared(
     texts: list[str], golden: Path | None, common: Flags, output: list[str], evaluator: Evaluator
 ) -> Comparison | GoldenComparison:
     """Run what is to be compared."""
-    from graphface.cli.sides import bound_inputs, read_side
+    from graphface.cli.sides import bound_inputs, read_sides
     from graphface.report.difference.compare import Comparison
     from graphface.report.difference.golden import RUN, GoldenComparison
     from graphface.report.difference.recorded import bound_again, read_recorded
     from graphface.report.terminal import ProgressBar
 
-    given = [read_side(text, common) for text in texts]
+    given = read_sides(texts, common)
     with ProgressBar() as bar:
         evaluator.observers = (bar,)
         if golden is not None:

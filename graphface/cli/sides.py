@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import shlex
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -12,6 +13,7 @@ from graphface.errors import UsageError
 
 if TYPE_CHECKING:
     from graphface.facade import Graph
+    from graphface.registry import Registry
     from graphface.report.difference.recorded import Recorded
 
 
@@ -41,8 +43,10 @@ class Given:
     recorded: Recorded | None
 
 
-def read_side(text: str, common: Flags) -> Given:
-    """Load one side: "GRAPH --set NODE.PARAM=VALUE -i NAME=FILE", a trace, a report or a result that carries its graph.
+def read_sides(texts: Sequence[str], common: Flags) -> list[Given]:
+    """Load sides, each "GRAPH --set NODE.PARAM=VALUE -i NAME=FILE", a trace, a report or a result with its graph inside.
+
+    A plug-in is loaded once for all of them: loaded again it would be other code, and every node of it would differ.
 
     Args:
         common: what is added to every side's own flags.
@@ -50,20 +54,18 @@ def read_side(text: str, common: Flags) -> Given:
     Raises:
         UsageError: a flag that is none, a file that is none of these.
     """
-    from graphface.cli.options import load_graph, read_inputs
-    from graphface.report.difference.recorded import SUFFIXES, read_recorded
+    from graphface.registry import default_registry
 
-    source, own = _split(text)
-    recorded = read_recorded(Path(source)) if source.lower().endswith(SUFFIXES) else None
-    graph = load_graph(
-        recorded.document if recorded is not None else source,
-        [*common.sets, *own.sets],
-        [*common.replaces, *own.replaces],
-        [*common.variants, *own.variants],
-        [*common.profiles, *own.profiles],
-        [*common.plugins, *own.plugins],
-    )
-    return Given(text, graph, read_inputs(own.inputs), recorded)
+    shared = _extended(default_registry(), common.plugins)
+    known: dict[tuple[Path, ...], Registry] = {(): shared}
+    sides = []
+    for text in texts:
+        source, own = _split(text)
+        plugins = tuple(own.plugins)
+        if plugins not in known:
+            known[plugins] = _extended(shared, plugins)
+        sides.append(_loaded(text, source, own, common, known[plugins]))
+    return sides
 
 
 def bound_inputs(sides: list[Given], common: list[str]) -> list[dict[str, Any]]:
@@ -92,6 +94,30 @@ def bound_inputs(sides: list[Given], common: list[str]) -> list[dict[str, Any]]:
         if side.recorded is None:
             inputs.update(borrowed)
     return bound
+
+
+def _extended(registry: Registry, plugins: Sequence[Path]) -> Registry:
+    extended = registry.extended() if plugins else registry
+    for plugin in plugins:
+        extended.add_file(plugin)
+    return extended
+
+
+def _loaded(text: str, source: str, own: Flags, common: Flags, registry: Registry) -> Given:
+    from graphface.cli.options import load_graph, read_inputs
+    from graphface.report.difference.recorded import SUFFIXES, read_recorded
+
+    recorded = read_recorded(Path(source)) if source.lower().endswith(SUFFIXES) else None
+    graph = load_graph(
+        recorded.document if recorded is not None else source,
+        [*common.sets, *own.sets],
+        [*common.replaces, *own.replaces],
+        [*common.variants, *own.variants],
+        [*common.profiles, *own.profiles],
+        [],
+        registry,
+    )
+    return Given(text, graph, read_inputs(own.inputs), recorded)
 
 
 def _split(text: str) -> tuple[str, Flags]:
