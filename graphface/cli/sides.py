@@ -44,7 +44,7 @@ class Given:
 
 
 def read_sides(texts: Sequence[str], common: Flags) -> list[Given]:
-    """Load sides, each "GRAPH --set NODE.PARAM=VALUE -i NAME=FILE", a trace, a report or a result with its graph inside.
+    """Load sides: "GRAPH --set NODE.PARAM=VALUE -i NAME=FILE", a trace, a report, or a result with its graph inside.
 
     A plug-in is loaded once for all of them: loaded again it would be other code, and every node of it would differ.
 
