@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.values.port_types import ArrayType, PortType
+from graphface.pictures import draw
+from graphface.registry import Registry, default_registry
+from graphface.values.port_types import PortType
 
 Picture = NDArray[np.uint8]
 Box = tuple[int, int, int, int]
@@ -18,13 +20,13 @@ GAIN = 4
 """By which difference maps are amplified; mid grey is no difference."""
 
 
-def picture_of(value: Any, declared: PortType) -> Picture | None:
-    """A value drawn by its type, uint8 H x W x 3; None where its type cannot."""
-    for atom in declared.alternatives:
-        if isinstance(atom, ArrayType) and atom.picture is not None and atom.problem(value) is None:
-            return np.asarray(atom.picture(value), np.uint8)
-    draw = getattr(type(value), "picture", None)
-    return None if draw is None else np.asarray(draw(value), np.uint8)
+def picture_of(value: Any, declared: PortType, registry: Registry | None = None) -> Picture:
+    """A value drawn as its type is, in all its pixels, uint8 H x W x 3.
+
+    Args:
+        registry: where drawings are found; that of everything installed by default.
+    """
+    return draw(value, declared, registry if registry is not None else default_registry()).pixels
 
 
 def difference(one: Picture, other: Picture) -> Picture:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphface.ablation.pictures import CasePictures, Pictures
 from graphface.ablation.table import shown_columns
-from graphface.report.compare.embed import page
+from graphface.report.compare.embed import page, texts
 from graphface.values.writing import beside
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def page_text(ablation: Ablation, pictures: Pictures) -> str:
         '<div id="ablation"></div><noscript>This page needs JavaScript; nothing is loaded.</noscript>',
         styles=[(assets / "page.css").read_text(encoding="utf-8")],
         scripts=[(assets / "page.js").read_text(encoding="utf-8")],
-        data={"ablated": data, "blobs": pictures.blobs.texts},
+        data={"ablated": data, "blobs": texts(pictures.blobs)},
     )
 
 

@@ -48,12 +48,12 @@ def write_sheet(ablation: Ablation, path: Path, *, crop: Box | None = None) -> N
 def _case_rows(ablation: Ablation, case: int, crop: Box | None) -> list[list[tuple[str, Picture]]]:
     """A row for the truth, where there is one, and for each variant: the whole, a part enlarged, the difference."""
     declared = ablation.graph.type_of(ablation.graph.targets([ablation.output])[ablation.output])
+    registry = ablation.graph.registry
     cells, truth = ablation.of_case(case), ablation.truths[case]
-    drawn = [(cell, picture_of(cell.value, declared)) for cell in cells if cell.value is not None]
-    pictures = [(cell, picture) for cell, picture in drawn if picture is not None]
+    pictures = [(cell, picture_of(cell.value, declared, registry)) for cell in cells if cell.value is not None]
     if not pictures:
         return [[(f"{cell.variant.name}: {cell.failure or 'no picture'}", _blank())] for cell in cells]
-    true_picture = None if truth is None else picture_of(truth, declared)
+    true_picture = None if truth is None else picture_of(truth, declared, registry)
     box = crop if crop is not None else where_they_differ([picture for _, picture in pictures])
     rows = []
     if true_picture is not None:

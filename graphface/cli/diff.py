@@ -117,8 +117,9 @@ def _compared(
     """Run what is to be compared."""
     from graphface.cli.sides import bound_inputs, read_sides
     from graphface.report.difference.compare import Comparison
-    from graphface.report.difference.golden import RUN, GoldenComparison
+    from graphface.report.difference.golden import GoldenComparison
     from graphface.report.difference.recorded import bound_again, read_recorded
+    from graphface.report.dump import RUN
     from graphface.report.terminal import ProgressBar
 
     given = read_sides(texts, common)

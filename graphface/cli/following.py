@@ -7,6 +7,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from graphface.evaluate.observe import Observer
+from graphface.report.dump import Dump
 from graphface.report.page.html import check_report, write_report
 from graphface.report.recorder import Find, Recorder
 from graphface.report.trace import Trace
@@ -59,6 +60,10 @@ class ReportFile(Recorder, Follower):
 
     def write(self) -> None:
         write_report(self, self._path)
+
+
+class DumpFolder(Dump, Follower):
+    """`--dump DIR`."""
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -24,7 +24,6 @@ from graphface.cli.options import (
     open_cache,
     read_inputs,
 )
-
 from graphface.report import picture_size
 
 if TYPE_CHECKING:
@@ -40,7 +39,12 @@ def run(
     inputs: Inputs = [],  # noqa: B006
     output: Annotated[
         list[str],
-        typer.Option("-o", "--output", metavar="[NAME=]FILE", help="An output, or any node.port, and its file."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="[NAME=]FILE",
+            help="An output, or any node.port, and its file; as .png, .jpg or .webp any value is a picture.",
+        ),
     ] = [],  # noqa: B006
     sets: Sets = [],  # noqa: B006
     replaces: Replaces = [],  # noqa: B006
@@ -61,13 +65,17 @@ def run(
         typer.Option(metavar="run.html", help="Write a page with a picture of every value, also where the run fails."),
     ] = None,
     report_size: Annotated[
-        int, typer.Option(
+        int,
+        typer.Option(
             metavar="PIXELS",
             min=picture_size.SMALLEST,
             max=picture_size.LARGEST,
             help="The longer side of the report's pictures.",
         ),
     ] = picture_size.DEFAULT,
+    dump: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write every value of the run: a picture, and .npz without loss.")
+    ] = None,
     times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
     maps: Annotated[
         list[str],
@@ -82,12 +90,13 @@ def run(
     import os
 
     from graphface.cache.memory import MemoryTier
-    from graphface.cli.following import Follower, ReportFile, TraceFile
+    from graphface.cli.following import DumpFolder, ReportFile, TraceFile
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_times, print_warnings
     from graphface.settings import memory_budget
 
-    _check_options(guard, trace, report, peaks=peaks, maps=maps, memory=memory)
+    following = {"--trace": trace, "--report": report, "--dump": dump}
+    _check_options(guard, following, peaks=peaks, maps=maps, memory=memory)
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     given = read_inputs(inputs)
     said: list[str] = []
@@ -104,6 +113,7 @@ def run(
         else:
             followers: list[Follower] = [TraceFile(trace, peaks=peaks)] if trace is not None else []
             followers += [ReportFile(report, report_size, evaluator.find)] if report is not None else []
+            followers += [DumpFolder(dump, evaluator)] if dump is not None else []
             records += run_once(loaded, output, given, evaluator, followers, history=cache)
     finally:
         print_warnings([*(f"{r.name}: {w}" for r in records for w in r.warnings), *said])
@@ -112,19 +122,18 @@ def run(
 
 
 def _check_options(
-    guard: str, trace: Path | None, report: Path | None, *, peaks: bool, maps: list[str], memory: str | None
+    guard: str, following: Mapping[str, Path | None], *, peaks: bool, maps: list[str], memory: str | None
 ) -> None:
     """Refuse options that do not go together."""
     from graphface.errors import UsageError
 
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
-    if peaks and trace is None:
+    if peaks and following["--trace"] is None:
         raise UsageError("--peaks is measured for the trace; add --trace run.json")
-    if maps and trace is not None:
-        raise UsageError("--trace and --peaks follow one run; leave them out with --map")
-    if maps and report is not None:
-        raise UsageError("--report shows one run; leave it out with --map")
+    if maps and any(path is not None for path in following.values()):
+        names = ", ".join(name for name, path in following.items() if path is not None)
+        raise UsageError(f"{names}: follows one run; leave it out with --map")
     if memory is not None and not maps:
         raise UsageError("--memory is what is kept from one combination of --map to the next; one run keeps nothing")
 
@@ -145,23 +154,21 @@ def run_once(
         history: the cache folder, beside which the run is remembered.
     """
     from graphface.cli.following import written
+    from graphface.cli.output import OutputFiles
     from graphface.report.history import History, Remember
     from graphface.report.terminal import ProgressBar
-    from graphface.values.writing import check_output, write_output
 
     files = output_files(graph, output, given)
     asked = graph.request(given, files)
-    types = {name: graph.type_of(target) for name, target in asked.targets.items()}
-    for name, path in files.items():
-        check_output(path, types[name], graph.registry.files)
+    outputs = OutputFiles(graph, asked.targets, evaluator)
+    outputs.check(files)
     _check_kept(files.values(), given.values())
     with ProgressBar() as bar, written(followers):
-        observers: list[Observer] = [bar, *followers]
+        observers: list[Observer] = [bar, *followers, *outputs.observers(files)]
         if evaluator.disk is not None:
             observers.append(Remember(History.beside(history), evaluator.disk))
         result = evaluator.run(asked, observers)
-    for name, path in files.items():
-        write_output(result[name], types[name], path, graph.registry.files, text=graph.provenance())
+    outputs.write(result, files)
     return result.records
 
 
@@ -176,29 +183,26 @@ def run_map(
     Raises:
         UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
     """
+    from graphface.cli.output import OutputFiles
     from graphface.evaluate.mapping import MapFailed, read_maps, run_over
     from graphface.report.terminal import ProgressBar
-    from graphface.values.writing import check_folder, check_output, write_output
 
     over = read_maps(maps)
     _check_distinct(graph, output, given, over)
     graph.bind(given)  # what all combinations share is refused once, before any runs
     first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
     targets = graph.targets(first)
-    for name, path in first.items():
-        check_output(path, graph.type_of(targets[name]), graph.registry.files)
+    outputs = OutputFiles(graph, targets, evaluator)
+    outputs.check(first)
     failed, total = [], 0
     with ProgressBar() as bar:
-        evaluator.observers = (bar,)
+        evaluator.observers = (bar, *outputs.observers(first))
         for made in run_over(graph, evaluator, over, given, targets):
             total += 1
             if made.result is None:
                 failed.append(made)
                 continue
-            for name, path in output_files(graph, output, made.inputs).items():
-                check_folder(path)
-                kind = graph.type_of(targets[name])
-                write_output(made.result[name], kind, path, graph.registry.files, text=graph.provenance())
+            outputs.write(made.result, output_files(graph, output, made.inputs))
             records += made.result.records
     if failed:
         raise MapFailed(failed, total)

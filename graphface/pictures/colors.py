@@ -20,7 +20,7 @@ def as_bytes(unit: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
     scaled = np.multiply(unit, 255, dtype=np.float32)
     finite = bool(np.isfinite(scaled.sum()))
     shown = scaled if finite else np.nan_to_num(scaled, nan=0, posinf=255, neginf=0)
-    pixels = np.rint(np.clip(shown, 0, 255)).astype(np.uint8)
+    pixels: NDArray[np.uint8] = np.rint(np.clip(shown, 0, 255)).astype(np.uint8)
     if pixels.ndim == 2:
         pixels = np.repeat(pixels[..., None], 3, axis=2)
     if not finite:
@@ -54,11 +54,20 @@ def with_odd(note: str, values: NDArray[Any]) -> str:
     return "; ".join(part for part in (note, words) if part)
 
 
+def share_beyond(values: NDArray[Any], limit: float) -> float:
+    """The share of the pixels of H x W (x C) with a value above a limit or below its negative."""
+    if not values.size or (values.max() <= limit and values.min() >= -limit):
+        return 0.0
+    channels = [values] if values.ndim == 2 else [values[..., channel] for channel in range(values.shape[2])]
+    return float(np.logical_or.reduce([np.abs(channel) > limit for channel in channels]).mean())
+
+
 def not_finite(values: NDArray[Any]) -> NDArray[np.bool_]:
     """Where H x W has no finite number, or H x W x C a channel without: bool H x W."""
-    if values.ndim == 2:
-        return ~np.isfinite(values)
-    return ~np.logical_and.reduce([np.isfinite(values[..., channel]) for channel in range(values.shape[2])])
+    finite: NDArray[np.bool_] = np.isfinite(values if values.ndim == 2 else values[..., 0])
+    for channel in range(1, values.shape[2] if values.ndim == 3 else 0):
+        finite &= np.isfinite(values[..., channel])
+    return ~finite
 
 
 def mark_odd(pixels: NDArray[np.uint8], values: NDArray[Any]) -> None:

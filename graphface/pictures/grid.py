@@ -15,6 +15,8 @@ SIZE = 768
 """Pixels of a grid's longer side where the view does not say."""
 MOST = 36
 """Cells of a grid; of more, the last says how many are left out."""
+_LEAST = 48
+"""Pixels of a cell's side, at the least: of a small picture some cells are left out."""
 Cell = tuple[str, Callable[[View], Picture]]
 
 
@@ -27,18 +29,21 @@ def draw_grid(cells: Sequence[Cell], view: View, *, columns: int | None = None) 
     """
     from PIL import Image, ImageDraw
 
-    left_out = max(0, len(cells) - MOST)
-    cells = cells[: MOST - 1] if left_out else cells
-    count = len(cells) + bool(left_out)
-    columns = columns or max(1, math.ceil(math.sqrt(count)))
-    size = max(32 * columns, view.size or SIZE)
-    side = size // columns - 2
-    letters = max(8, min(14, side // 10))
+    size = max(_LEAST, view.size or SIZE)
+    widest = max(1, size // _LEAST)
+    room = min(MOST, widest * widest)
+    left_out = max(0, len(cells) - room)
+    cells = cells[:room]
+    columns = min(columns or math.ceil(math.sqrt(len(cells))), widest)
+    count = -(-len(cells) // columns)
+    letters = max(7, min(14, size // columns // 10))
+    side = max(8, min(size // columns, size // count - letters * 3 // 2 - 2) - 2)
     drawn = [(label, _fitted(draw(replace(view, size=side)), side)) for label, draw in cells]
     rows = [drawn[start : start + columns] for start in range(0, len(drawn), columns)]
     caption = letters * 3 // 2
     heights = [caption + max(tile.shape[0] for _, tile in row) + 2 for row in rows]
-    sheet = Image.new("RGB", (columns * (side + 2), sum(heights) + caption * bool(left_out)), PAPER)
+    width = columns * (side + 2)
+    sheet = Image.new("RGB", (width, sum(heights) + caption * bool(left_out)), PAPER)
     pen = ImageDraw.Draw(sheet)
     top = 0
     for row, height in zip(rows, heights, strict=True):
@@ -48,8 +53,8 @@ def draw_grid(cells: Sequence[Cell], view: View, *, columns: int | None = None) 
             sheet.paste(Image.fromarray(tile), (left + (side - tile.shape[1]) // 2 + 1, top + caption))
         top += height
     if left_out:
-        write(pen, (3, top), f"and {left_out + 1} more", letters, width=side, color=FAINT)
-    return Picture(np.asarray(sheet), _note(cells))
+        write(pen, (3, top), f"and {left_out} more", letters, width=side, color=FAINT)
+    return Picture(np.asarray(sheet), f"{len(cells) + left_out} parts" if len(cells) != 1 else "one part")
 
 
 def _fitted(picture: Picture, side: int) -> np.ndarray:
@@ -64,7 +69,3 @@ def _fitted(picture: Picture, side: int) -> np.ndarray:
         return np.asarray(Image.fromarray(pixels).resize(shape, Image.Resampling.BOX))
     times = side // longest
     return pixels if times < 2 else np.repeat(np.repeat(pixels, times, axis=0), times, axis=1)
-
-
-def _note(cells: Sequence[Cell]) -> str:
-    return f"{len(cells)} parts" if len(cells) != 1 else "one part"

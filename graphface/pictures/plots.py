@@ -90,10 +90,10 @@ def _curve(
     left, right, top, bottom = frame
     pixels = max(2, int(right - left))
     if len(values) <= pixels:
-        x = left + (right - left) * np.arange(len(values)) / max(1, len(values) - 1)
+        x = np.linspace(left, right, len(values)) if len(values) > 1 else np.array([left])
         groups = [values[i : i + 1] for i in range(len(values))]
     else:
-        x = left + np.arange(pixels)
+        x = left + np.arange(float(pixels))
         groups = np.array_split(values, pixels)
     previous: tuple[float, float] | None = None
     for at, group in zip(x, groups, strict=True):

@@ -12,7 +12,7 @@ import threading
 import time
 import weakref
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -31,7 +31,7 @@ from graphface.report.blobs import Blobs, Sheet
 from graphface.report.picture_size import DEFAULT
 from graphface.report.trace import Trace
 from graphface.report.untouched import untouched
-from graphface.values.frozen import arrays_in
+from graphface.values.frozen import arrays_in, describe
 from graphface.values.picture import View
 
 Find = Callable[[bytes, Step | None], tuple[Any, State]]
@@ -169,7 +169,7 @@ class Recorder(Observer):
         entry.arrays = [(path, found) for path, array in arrays_in(value) if (found := self._figures(array))]
         if entry.record is not None and entry.record.state != "ran":
             entry.record.bytes = sum(array.nbytes for _, array in arrays_in(value))
-        self.trace.summaries[graph.names[slot]] = summary(value, entry.arrays)
+        self.trace.summaries[graph.names[slot]] = describe(value, self._range)
         view = View(self.size, above(self.request, slot, self.value_of))
         for fields, part in _parts(value, self._fields.get(slot, ())):
             declared = graph.type_of(Ref(slot, fields))
@@ -184,6 +184,10 @@ class Recorder(Observer):
         found = figures(array)
         self._measured[id(array)] = weakref.ref(array), found
         return found
+
+    def _range(self, array: np.ndarray) -> tuple[float, float]:
+        found = self._figures(array)
+        return (found.low, found.high) if found is not None and found.counted else (np.nan, np.nan)
 
     def value_of(self, slot: int) -> Any:
         """The value of a slot while the run, a tier or a graph input has it; else `MISSING`."""
@@ -252,17 +256,7 @@ def fields_taken(request: Request) -> dict[int, set[tuple[str, ...]]]:
     return taken
 
 
-def summary(value: Any, arrays: Sequence[tuple[str, Figures]]) -> str:
-    """A value in one line, as `describe` has it, of figures that are there already."""
-    from graphface.values.frozen import describe
-
-    if not isinstance(value, np.ndarray) or not arrays:
-        return describe(value)
-    found = arrays[0][1]
-    return f"{found.dtype}{list(found.shape)} {found.low:.4g}..{found.high:.4g}"
-
-
-def _parts(value: Any, taken: Sequence[tuple[str, ...]] | set[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], Any]]:
+def _parts(value: Any, taken: Collection[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], Any]]:
     """A value and those of its fields that are taken and there."""
     yield (), value
     for fields in sorted(taken):

@@ -112,25 +112,33 @@ def is_finite(array: np.ndarray) -> bool:
     return bool(np.isfinite(array.min()) and np.isfinite(array.max()))
 
 
-def describe(value: Any) -> str:
-    """A value in one short line: shape, dtype and range of an array, the parts of what has any."""
+def describe(value: Any, range_of: Callable[[np.ndarray], tuple[Any, Any]] | None = None) -> str:
+    """A value in one short line: shape, dtype and range of an array, the parts of what has any.
+
+    Args:
+        range_of: the smallest and the largest number of an array, where they are known already.
+    """
     if isinstance(value, np.ndarray):
-        return _describe_array(value)
+        return _describe_array(value, range_of or _finite_range)
     rule, name = rule_of(type(value)), type(value).__name__
     if isinstance(rule, Named):
-        return f"{name}({', '.join(f'{label}={describe(part)}' for label, part in rule.items(value))})"
+        return f"{name}({', '.join(f'{label}={describe(part, range_of)}' for label, part in rule.items(value))})"
     if rule is not None:
-        first = "".join(f": {describe(part)}, ..." for _, part in islice(rule.items(value), 1))
+        first = "".join(f": {describe(part, range_of)}, ..." for _, part in islice(rule.items(value), 1))
         return f"{name} of {len(value)}{first}"
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _describe_array(array: np.ndarray) -> str:
+def _describe_array(array: np.ndarray, range_of: Callable[[np.ndarray], tuple[Any, Any]]) -> str:
     text = f"{array.dtype}{list(array.shape)}"
     if array.size and array.dtype.kind in "fiub":
-        finite = bool(np.isfinite(array).any())
-        with np.errstate(invalid="ignore"):
-            low, high = (np.nanmin(array), np.nanmax(array)) if finite else (np.nan, np.nan)
+        low, high = range_of(array)
         text += f" {low:.4g}..{high:.4g}"
     return text
+
+
+def _finite_range(array: np.ndarray) -> tuple[Any, Any]:
+    finite = bool(np.isfinite(array).any())
+    with np.errstate(invalid="ignore"):
+        return (np.nanmin(array), np.nanmax(array)) if finite else (np.nan, np.nan)

@@ -9,9 +9,9 @@ To a type checker and in a notebook a `Mask` stays a plain NumPy array; to the e
 when a graph is wired and again when a value passes. Wrapping each map in a class was tried on paper and rejected:
 every operator would begin and end by unwrapping.
 
-A class may teach the engine two things, both optional: `coerce(object)` accepts what people have at hand in a notebook
-(an array for an image), and `picture(value)` draws the value as uint8, H x W x 3, for debugging; an `ArrayType` has
-`picture` as an argument. What reads and writes files stands apart (`graphface.values.files`): a value knows no files.
+A class may teach the engine one thing: `coerce(object)` accepts what people have at hand in a notebook (an array for an
+image). What reads and writes files stands apart (`graphface.values.files`), and so does what draws values
+(`graphface.values.picture`): a value knows neither.
 A pydantic model (a scene) is small, and made by hand: it is read and checked as soon as it is given.
 """
 
@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import types
 import typing
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, is_dataclass
 from functools import cached_property
 from typing import Annotated, Any, TypeVar
@@ -48,7 +48,6 @@ class ArrayType:
         kind: NumPy dtype kinds allowed, as in `dtype.kind` ("f" floating, "i" integer, "b" boolean).
         low, high: the nominal range, for messages and pictures; values are not clipped.
         parent: the type that this one may stand in for.
-        picture: draws a value as uint8, H x W x 3.
     """
 
     name: str
@@ -58,7 +57,6 @@ class ArrayType:
     high: float | None = None
     doc: str = ""
     parent: ArrayType | None = None
-    picture: Callable[[Any], Any] | None = None
 
     def is_a(self, other: ArrayType) -> bool:
         return self is other or (self.parent is not None and self.parent.is_a(other))

@@ -17,10 +17,13 @@ from typing import Any
 import numpy as np
 
 from graphface.errors import RefusedOutput, UnwritableFile
-from graphface.values.files import FilesOf
+from graphface.values.files import Files, FilesOf
 from graphface.values.frozen import arrays_in
 from graphface.values.port_types import ArrayType, Atom, PortType
 from graphface.values.whole_file import create, replacing
+
+PICTURE_SUFFIXES = (".png", ".jpg", ".jpeg", ".webp")
+"""What any value can be drawn as, where its type has no writer of its own for it."""
 
 
 def write_output(
@@ -43,9 +46,10 @@ def write_output(
             raise UnwritableFile(path, f"a {type(value).__name__} holds no array")
         _write_with(path, lambda beside: np.savez(beside, **named))  # type: ignore[arg-type]
     else:
-        writer = _writer(value, declared, files_of)
-        if writer is None:
+        files = _files(value, declared, files_of)
+        if files is None or files.write is None:
             raise UnwritableFile(path, f"a {type(value).__name__} can only be written as .npz")
+        writer = files.write
         try:
             if text and "text" in inspect.signature(writer).parameters:
                 writer(value, path, text=text)
@@ -75,24 +79,46 @@ def check_folder(path: Path) -> None:
 
 
 def check_output(path: Path, declared: PortType, files_of: FilesOf) -> None:
-    """As `check_folder`, and that a value of the declared type can be written under that suffix.
+    """As `check_folder`, and that a value of the declared type can be written, or drawn, under that suffix.
 
     Raises:
         RefusedOutput: the folder is missing or read-only, the path is a folder, or no writer knows the suffix.
     """
     check_folder(path)
+    known = _own_suffixes(declared, files_of)
+    if known is None or path.suffix.lower() in (*known, *PICTURE_SUFFIXES):
+        return
+    reason = f"no {declared} can be written as {path.suffix!r}" if path.suffix else "its name has no suffix"
+    drawn = f", or as its picture: {', '.join(PICTURE_SUFFIXES)}" if PICTURE_SUFFIXES[0] not in known else ""
+    raise RefusedOutput(path, f"{reason}; use {' or '.join(dict.fromkeys(known))}{drawn}")
+
+
+def may_be_drawn(path: Path, declared: PortType, files_of: FilesOf) -> bool:
+    """Whether values of a type may have to be drawn: the suffix is a picture's and not one that the type writes."""
+    known = _own_suffixes(declared, files_of)
+    suffix = path.suffix.lower()
+    return suffix in PICTURE_SUFFIXES and (known is None or suffix not in known or declared.optional)
+
+
+def is_drawn(value: Any, declared: PortType, path: Path, files_of: FilesOf) -> bool:
+    """Whether a value is written as its picture: its type has no writer of its own for that suffix."""
+    if path.suffix.lower() not in PICTURE_SUFFIXES:
+        return False
+    files = _files(value, declared, files_of)
+    return files is None or (files.suffixes != () and path.suffix.lower() not in files.suffixes)
+
+
+def _own_suffixes(declared: PortType, files_of: FilesOf) -> list[str] | None:
+    """What a type is written as, and .npz; None where only its writer can tell."""
     known: list[str] = []
     for atom in declared.alternatives:
         files = files_of(atom)
         suffixes = files.suffixes if files is not None and files.write is not None else None
-        if atom is object or suffixes == ():
-            return  # the writer will tell
+        if suffixes == ():
+            return None
         known += suffixes or ()
         known += [".npy"] if _is_array(atom) else []
-    known.append(".npz")
-    if path.suffix.lower() not in known:
-        reason = f"no {declared} can be written as {path.suffix!r}" if path.suffix else "its name has no suffix"
-        raise RefusedOutput(path, f"{reason}; use {' or '.join(dict.fromkeys(known))}")
+    return [*known, ".npz"]
 
 
 def make_folder(folder: Path) -> None:
@@ -132,11 +158,11 @@ def _write_with(path: Path, write: Callable[[Path], None]) -> None:
         raise UnwritableFile(path, error.strerror or str(error)) from None
 
 
-def _writer(value: Any, declared: PortType, files_of: FilesOf) -> Callable[..., None] | None:
+def _files(value: Any, declared: PortType, files_of: FilesOf) -> Files | None:
     """Who writes a value: the array type that the port declares and that it is of, or its class."""
     kinds: list[Atom] = [a for a in declared.alternatives if isinstance(a, ArrayType) and a.problem(value) is None]
     files = (files_of(kind) for kind in (*kinds, type(value)))
-    return next((found.write for found in files if found is not None and found.write is not None), None)
+    return next((found for found in files if found is not None and found.write is not None), None)
 
 
 def _is_array(atom: object) -> bool:

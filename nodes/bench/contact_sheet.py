@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.pictures.photo import bytes_of
 from graphface.nodes.types import Image, Landmarks, Mesh
-from graphface.values.port_types import array_of
 
 Picture = NDArray[np.uint8]
 
@@ -51,7 +50,7 @@ def around_face(landmarks: Landmarks, photo: Image, *, reach: float = 2.6) -> tu
 
 def mesh_overlay(photo: Image, mesh: Mesh, landmarks: Landmarks) -> Picture:
     """The projected triangles and landmarks drawn on the photo."""
-    canvas = Image.picture(photo).copy()
+    canvas = bytes_of(photo)
     points = mesh.camera.project(mesh.vertices)
     thickness = max(1, round(max(canvas.shape) / 1200))
     lines = np.round(points[mesh.triangles] * 16).astype(np.int32)
@@ -59,12 +58,3 @@ def mesh_overlay(photo: Image, mesh: Mesh, landmarks: Landmarks) -> Picture:
     for x, y in landmarks.points[:, :2]:
         cv2.circle(canvas, (round(float(x)), round(float(y))), thickness, (255, 200, 60), -1, cv2.LINE_AA)
     return canvas
-
-
-def picture_of(value: Any, name: str) -> Picture:
-    """A value as a picture, by the type called `name` in `graphface.nodes.types`."""
-    from graphface.nodes import types
-
-    declared = getattr(types, name)
-    drawn: Picture = getattr(array_of(declared) or declared, "picture")(value)  # noqa: B009
-    return drawn

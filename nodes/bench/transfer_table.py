@@ -11,6 +11,7 @@ import numpy as np
 from graphface import Evaluator, GraphfaceError, MemoryTier, load, warn
 from graphface.evaluate.mapping import run_over
 from graphface.nodes.bench.contact_sheet import Picture
+from graphface.nodes.pictures.photo import bytes_of
 from graphface.nodes.types import Image, Landmarks
 
 _ASKED = ("image", "pair.landmarks", "pair.working", "pair.reference_landmarks", "pair.reference_working")
@@ -57,7 +58,7 @@ def face_crop(image: Image, landmarks: Landmarks, side: int) -> Picture:
     offset = side / 2 - scale * (low + high) / 2
     matrix = np.array([[scale, 0, offset[0]], [0, scale, offset[1]]], np.float32)
     interpolation = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
-    cropped = cv2.warpAffine(Image.picture(image), matrix, (side, side), flags=interpolation, borderValue=(24, 24, 24))
+    cropped = cv2.warpAffine(bytes_of(image), matrix, (side, side), flags=interpolation, borderValue=(24, 24, 24))
     return np.asarray(cropped, np.uint8)
 
 

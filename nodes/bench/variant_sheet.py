@@ -8,7 +8,7 @@ from pathlib import Path
 from graphface.nodes.bench.contact_sheet import Picture, contact_sheet
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_picture
-from graphface.nodes.types import Image
+from graphface.nodes.pictures.photo import bytes_of
 
 
 def variant_sheets(out: Path, variants: Sequence[str], data: Path, truth: str, *, width: int = 180) -> list[Path]:
@@ -40,5 +40,4 @@ def _truth(data: Path, truth: str, subject: str, light: str) -> Path:
 
 
 def _picture(path: Path) -> Picture:
-    drawn: Picture = Image.picture(read_image(path))
-    return drawn
+    return bytes_of(read_image(path))

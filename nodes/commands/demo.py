@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from graphface import Result
+    from graphface import Graph, Result
     from graphface.nodes.bench.contact_sheet import Picture
 
 SCENES = ("golden-hour", "moonlight", "red-blue")
 _STAGES = {
-    "normals": ("face.normals", "Normals"),
-    "face mask": ("face.mask", "Mask"),
-    "albedo": ("face.albedo", "Albedo"),
-    "shading": ("face.shading", "Shading"),
-    "light on the face": ("face.estimated", "Shading"),
-    "detail map": ("face.detail", "DetailMap"),
+    "normals": "face.normals",
+    "face mask": "face.mask",
+    "albedo": "face.albedo",
+    "shading": "face.shading",
+    "light on the face": "face.estimated",
+    "detail map": "face.detail.gain",
 }
 
 
@@ -40,7 +40,7 @@ def demo(
     make_folder(folder)
     given = photo if photo is not None else astronaut()
     graph = load("relight")
-    asked = ["image", "photo", "face.mesh", "face.landmarks", *(name for name, _ in _STAGES.values())]
+    asked = ["image", "photo", "face.mesh", "face.landmarks", *_STAGES.values()]
     records, relit, results = [], {}, None
     with ProgressBar() as bar:
         evaluator = Evaluator(memory=MemoryTier(), threads=os.cpu_count() or 1, observers=[bar])
@@ -52,7 +52,7 @@ def demo(
     for scene, image in relit.items():
         write_image(image, folder / f"{scene}.png")
     write_picture(_row(results, relit), folder / "demo.jpg")
-    write_picture(_sheet(results, relit), folder / "contact-sheet.png")
+    write_picture(_sheet(graph, results, relit), folder / "contact-sheet.png")
     print_times(records, title=f"{len(SCENES)} scenes")
     print_warnings(results.warnings)
     print(f"wrote {', '.join(f'{scene}.png' for scene in SCENES)}, demo.jpg and contact-sheet.png to {folder}/")
@@ -61,22 +61,28 @@ def demo(
 def _row(results: Result, relit: dict[str, Any]) -> Picture:
     """The face as it was and under each scene, side by side: the picture that the README opens with."""
     from graphface.nodes.bench.contact_sheet import around_face, contact_sheet
-    from graphface.nodes.types import Image
+    from graphface.nodes.pictures.photo import bytes_of
 
     near = around_face(results["face.landmarks"], results["photo"], reach=1.7)
     cells = {"photo": results["photo"], **relit}
-    return contact_sheet([(name, Image.picture(cell)[near]) for name, cell in cells.items()], columns=4, width=300)
+    return contact_sheet([(name, bytes_of(cell)[near]) for name, cell in cells.items()], columns=4, width=300)
 
 
-def _sheet(results: Result, relit: dict[str, Any]) -> Picture:
+def _sheet(graph: Graph, results: Result, relit: dict[str, Any]) -> Picture:
     """The photo whole, every stage around the face."""
-    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet, mesh_overlay, picture_of
+    from graphface.nodes.bench.contact_sheet import around_face, contact_sheet, mesh_overlay
+    from graphface.nodes.pictures.photo import bytes_of
     from graphface.nodes.types import Image
+    from graphface.pictures import draw
+    from graphface.values.picture import View
 
     photo, landmarks = results["photo"], results["face.landmarks"]
     near = around_face(landmarks, photo)
-    cells = [("photo", Image.picture(photo)), ("face", Image.picture(photo)[near])]
+    cells = [("photo", bytes_of(photo)), ("face", bytes_of(photo)[near])]
     cells.append(("mesh", mesh_overlay(photo, results["face.mesh"], landmarks)[near]))
-    cells += [(caption, picture_of(results[name], kind)[near]) for caption, (name, kind) in _STAGES.items()]
-    cells += [(f"relit: {scene}", Image.picture(image)[near]) for scene, image in relit.items()]
+    view = View(above=lambda kind: photo if kind is Image else None)
+    for caption, name in _STAGES.items():
+        declared = graph.type_of(graph.targets([name])[name])
+        cells.append((caption, draw(results[name], declared, graph.registry, view).pixels[near]))
+    cells += [(f"relit: {scene}", bytes_of(image)[near]) for scene, image in relit.items()]
     return contact_sheet(cells, columns=4)

@@ -28,7 +28,7 @@ def gallery(
     from graphface.nodes.bench.contact_sheet import around_face, contact_sheet
     from graphface.nodes.bench.shipped import astronaut, shipped_scenes
     from graphface.nodes.io.image_write import write_image, write_picture
-    from graphface.nodes.types import Image
+    from graphface.nodes.pictures.photo import bytes_of
     from graphface.values.writing import make_folder
 
     scenes = scene or shipped_scenes()
@@ -47,8 +47,8 @@ def gallery(
             found = graph.run(asked, evaluator=evaluator, photo=source, scene=path)
             near = around_face(found["face.landmarks"], found["photo"])
             if not cells:
-                cells.append((name, Image.picture(found["photo"])[near]))
-            cells.append((path.stem, Image.picture(found["image"])[near]))
+                cells.append((name, bytes_of(found["photo"])[near]))
+            cells.append((path.stem, bytes_of(found["image"])[near]))
             write_image(found["image"], folder / f"{name}-{path.stem}.png")
         write_picture(contact_sheet(cells, columns=columns, width=300), folder / f"{name}-sheet.png")
     print(f"wrote {len(photos) * len(scenes)} pictures and {len(photos)} sheets to {folder}/")

@@ -41,17 +41,13 @@ def _read_mask(path: Path) -> Any:
 
 
 def _drawn(name: str) -> Callable[..., None]:
-    """A writer of a map as the picture that its type draws."""
+    """A writer of a map by a fixed scale: `name` is a function of `graphface.nodes.pictures.maps`."""
 
     def write(value: Any, path: Path, text: Mapping[str, str] | None = None) -> None:
-        from graphface.nodes import types
         from graphface.nodes.io.image_write import write_picture
-        from graphface.values.port_types import array_of
+        from graphface.nodes.pictures import maps
 
-        kind = array_of(getattr(types, name))
-        assert kind is not None
-        assert kind.picture is not None
-        write_picture(kind.picture(value), path, text=text)
+        write_picture(getattr(maps, name)(value), path, text=text)
 
     return write
 
@@ -140,9 +136,12 @@ def _write_representation(representation: Any, path: Path) -> None:
 
 
 IMAGE = Files(_read_image, _write_image, PICTURES, _text_in_picture)
-MASK = Files(_read_mask, _drawn("Mask"), PICTURES)
-NORMALS, DEPTH, ALBEDO = (Files(write=_drawn(name), suffixes=PICTURES) for name in ("Normals", "Depth", "Albedo"))
-SHADING, DETAIL, GAIN = (Files(write=_drawn(name), suffixes=PICTURES) for name in ("Shading", "Detail", "Gain"))
+MASK = Files(_read_mask, _drawn("as_bytes"), PICTURES)
+SHADING = Files(write=_drawn("as_bytes"), suffixes=PICTURES)
+NORMALS = Files(write=_drawn("normals_bytes"), suffixes=PICTURES)
+DEPTH = Files(write=_drawn("depth_bytes"), suffixes=PICTURES)
+DETAIL = Files(write=_drawn("signed_bytes"), suffixes=PICTURES)
+ALBEDO = GAIN = Files(write=_drawn("albedo_bytes"), suffixes=PICTURES)
 TEXTURE = Files(write=_write_texture, suffixes=PICTURES)
 LANDMARKS = Files(_read_landmarks, _write_landmarks, (".pts", ".csv", ".npy"))
 MESH = Files(write=_write_mesh, suffixes=MESHES)
@@ -152,4 +151,4 @@ ENVIRONMENT = Files(_read_environment, _write_environment, (".exr", ".hdr", ".pi
 SCENE = Files(_read_scene)
 PINS = Files(_read_pins)
 JUDGEMENTS = Files(_read_judgements)
-REPRESENTATION = Files(_read_representation, _write_representation)
+REPRESENTATION = Files(_read_representation, _write_representation, (".face", ".safetensors"))

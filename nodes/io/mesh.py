@@ -10,7 +10,8 @@ import numpy as np
 from graphface import UnwritableFile, UsageError
 from graphface.nodes.face_coordinates import mesh_uv
 from graphface.nodes.io.suffixes import MESHES
-from graphface.nodes.types import Image, Mesh, Texture
+from graphface.nodes.pictures.photo import bytes_of
+from graphface.nodes.types import Mesh, Texture
 
 
 def write_mesh(mesh: Mesh, path: Path, texture: Texture | None = None) -> None:
@@ -45,7 +46,7 @@ def write_mesh(mesh: Mesh, path: Path, texture: Texture | None = None) -> None:
 def _visual(trimesh: Any, mesh: Mesh, texture: Texture, *, per_vertex: bool) -> Any:
     import PIL.Image
 
-    uv, pixels = mesh_uv(mesh), Image.picture(texture.image)
+    uv, pixels = mesh_uv(mesh), bytes_of(texture.image)
     if per_vertex:
         size = pixels.shape[0]
         at = np.clip(np.rint(np.column_stack([uv[:, 0], 1 - uv[:, 1]]) * size - 0.5), 0, size - 1).astype(int)

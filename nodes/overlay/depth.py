@@ -8,8 +8,8 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.overlay.layer import laid_over
+from graphface.nodes.pictures.maps import depth_bytes
 from graphface.nodes.types import Image, Surface
-from graphface.nodes.types.pictures import picture_depth
 
 Strength = Annotated[float, Field(ge=0, le=1)]
 
@@ -17,4 +17,4 @@ Strength = Annotated[float, Field(ge=0, le=1)]
 @node("overlay.depth")
 def depth(photo: Image, surface: Surface, *, strength: Strength = 0.7) -> Image:
     """The depth as grey over the photo, near is white."""
-    return laid_over(photo, picture_depth(surface.depth), surface, strength)
+    return laid_over(photo, depth_bytes(surface.depth), surface, strength)

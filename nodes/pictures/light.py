@@ -30,27 +30,22 @@ def draw_lighting(light: Lighting, view: View) -> Picture:
         return draw_text(f"no light: {coefficients.shape[0]} coefficients", view)
     side = max(16, min(view.size or _SIDE, 512))
     pixels, shading, white = lit_sphere(light, side)
-    towards = main_direction(light)
-    _arrow(pixels, towards)
-    numbers = coefficients.mean(axis=1) if coefficients.ndim == 2 else coefficients
-    first = ", ".join(f"{value:.3g}" for value in numbers[:4])
-    note = f"a sphere under the light, white is {white:.3g}; {_where(towards)}; coefficients {first}"
-    note += " ..." if len(numbers) > 4 else ""
+    _arrow(pixels, main_direction(light))
     channels = ("red", "green", "blue") if shading.ndim == 3 else ("shading",)
-    return Picture(pixels, with_odd(note, coefficients), shading, channels)
+    return Picture(pixels, with_odd(_in_words(light, white), coefficients), shading, channels)
 
 
 def draw_fit(fit: LightingFit, view: View) -> Picture:
     """What the light does not explain, with the sphere in a corner."""
     residual = draw_shading(fit.residual, view)
-    sphere = draw_lighting(fit.light, view)
     pixels = residual.pixels.copy()
-    side = min(pixels.shape[:2]) // 3
-    if side >= 16:
-        small, _, _ = lit_sphere(fit.light, side)
-        _arrow(small, fit.direction)
+    side = max(16, min(pixels.shape[:2]) // 3)
+    small, _, white = lit_sphere(fit.light, side)
+    _arrow(small, fit.direction)
+    if side <= min(pixels.shape[:2]):
         pixels[-side:, :side] = small
-    note = f"residual: {residual.note}; in the corner {sphere.note}; condition {fit.condition:.3g}"
+    words = _in_words(fit.light, white)
+    note = f"residual: {residual.note}; in the corner {words}; condition {fit.condition:.3g}"
     return Picture(pixels, note, residual.data, residual.channels, residual.full)
 
 
@@ -141,6 +136,12 @@ def _captioned(pixels: Pixels, text: str) -> Pixels:
     canvas = Image.fromarray(pixels)
     ImageDraw.Draw(canvas).text((4, 2), text, _ARROW, font(max(9, pixels.shape[0] // 16)))
     return np.asarray(canvas)
+
+
+def _in_words(light: Lighting, white: float) -> str:
+    numbers = light.coefficients.mean(axis=1) if light.coefficients.ndim == 2 else light.coefficients
+    first = ", ".join(f"{value:.3g}" for value in numbers[:4]) + (" ..." if len(numbers) > 4 else "")
+    return f"a sphere under the light, white is {white:.3g}; {_where(main_direction(light))}; coefficients {first}"
 
 
 def _where(towards: Direction) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from graphface.nodes.harmonics import has_surface
 from graphface.nodes.pictures.photo import Pixels, backdrop
 from graphface.nodes.types import Albedo, Depth, Detail, FaceCoordinates, FloatArray, Gain, Normals, Shading, Surface
-from graphface.pictures.colors import as_bytes, with_odd
+from graphface.pictures.colors import as_bytes, share_beyond, with_odd
 from graphface.values.picture import Picture, View
 
 RGB = ("red", "green", "blue")
@@ -109,14 +109,6 @@ def _map(values: FloatArray, view: View, bytes_of: Any, note: str, *, over: floa
     note += f"; {share:.1%} of the pixels lie beyond" if share >= 0.0005 else ""
     channels = RGB if seen.ndim == 3 else ("value",)
     return Picture(bytes_of(seen), with_odd(note, seen), seen, channels, _full(values))
-
-
-def share_beyond(values: FloatArray, limit: float) -> float:
-    """The share of the pixels of H x W (x C) with a value above a limit or below its negative."""
-    if not values.size or (values.max() <= limit and values.min() >= -limit):
-        return 0.0
-    channels = [values] if values.ndim == 2 else [values[..., channel] for channel in range(values.shape[2])]
-    return float(np.logical_or.reduce([np.abs(channel) > limit for channel in channels]).mean())
 
 
 def _full(values: FloatArray) -> tuple[int, int]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from graphface.nodes.pictures.photo import Pixels, backdrop, photo_for, tinted
+from graphface.nodes.pictures.photo import Pixels, backdrop, darkened, photo_for, tinted
 from graphface.nodes.types import Features, FloatArray, HeadMasks, Mask, Regions, Segmentation
 from graphface.pictures.colors import as_bytes, mark_odd, with_odd
 from graphface.pictures.text import font
@@ -27,17 +28,18 @@ _PALETTE = {
     "white": (250, 250, 250),
 }
 _LETTERS_FROM = 160
-"""Pixels of a picture's longer side from which the parts are named in it."""
+"""Pixels of a picture's shorter side from which the parts are named in it."""
 
 
 def draw_mask(mask: Mask, view: View) -> Picture:
     """Green over the photo; without a photo black to white."""
     seen = view.sampled(mask)
     full = (mask.shape[0], mask.shape[1])
-    if photo_for(view, full, seen.shape) is None:
+    photo = photo_for(view, full, seen.shape)
+    if photo is None:
         pixels, note = as_bytes(seen), "black is 0, white 1"
     else:
-        pixels = tinted(backdrop(view, full, seen.shape), [seen], [GREEN])
+        pixels = tinted(darkened(photo), [seen], [GREEN])
         mark_odd(pixels, seen)
         note = "green is 1, the photo alone 0"
     outside = seen.size > 0 and not (seen.min() >= 0 and seen.max() <= 1)
@@ -55,17 +57,17 @@ def draw_segmentation(labels: Segmentation, view: View) -> Picture:
 def draw_head_masks(masks: HeadMasks, view: View) -> Picture:
     """The widest mask under the narrower ones."""
     colors = {"aggressive": ("blue", BLUE), "normal": ("green", GREEN), "conservative": ("orange", ORANGE)}
-    return _parts(_maps(masks), view, colors)
+    return _parts(_maps(masks), view, colors, nested=True)
 
 
 def draw_features(features: Features, view: View) -> Picture:
     """Every part in a color of its own."""
-    return _parts(_maps(features), view, _colors(Features), named=True)
+    return _parts(_maps(features), view, _colors(Features))
 
 
 def draw_regions(regions: Regions, view: View) -> Picture:
     """Every region in a color of its own."""
-    return _parts(_maps(regions), view, _colors(Regions), named=True)
+    return _parts(_maps(regions), view, _colors(Regions))
 
 
 def _colors(kind: Any) -> dict[str, tuple[str, tuple[int, int, int]]]:
@@ -82,40 +84,39 @@ def _parts(
     colors: Mapping[str, tuple[str, tuple[int, int, int]]],
     *,
     rest: str = "",
-    named: bool = False,
+    nested: bool = False,
 ) -> Picture:
     """Masks of one size as colors over the photo, the later ones above.
 
     Args:
-        colors: of each part that gets one, with its name. rest: the part that stays as the photo is.
-        named: write the names of the parts into the picture.
+        colors: of each part that gets one, with the color's name. rest: the part that stays as the photo is.
+        nested: every part lies within the one before it, and takes its place.
     """
     seen = {name: view.sampled(values) for name, values in maps.items()}
     first = next(iter(maps.values()))
     full, shown = (first.shape[0], first.shape[1]), next(iter(seen.values())).shape
     weights = [seen[name] for name in colors]
+    if nested:
+        weights = [outer * (1 - inner) for outer, inner in pairwise(weights)] + weights[-1:]
     pixels = tinted(backdrop(view, full, shown), weights, [color for _, color in colors.values()])
     data = np.stack(list(seen.values()), axis=2)
     mark_odd(pixels, data)
-    if named and max(shown) >= _LETTERS_FROM:
-        pixels = _labelled(pixels, {name: seen[name] for name in colors})
+    if min(shown) >= _LETTERS_FROM:
+        pixels = _with_legend(pixels, colors)
     note = ", ".join(f"{name.replace('_', ' ')} {word}" for name, (word, _) in colors.items())
     note += f"; {rest} is left as it is" if rest else ""
     return Picture(pixels, with_odd(note, data), data, tuple(seen), full)
 
 
-def _labelled(pixels: Pixels, masks: Mapping[str, FloatArray]) -> Pixels:
-    """The name of every part written in the middle of it."""
+def _with_legend(pixels: Pixels, colors: Mapping[str, tuple[str, tuple[int, int, int]]]) -> Pixels:
+    """The name of every part in its color, in the upper left corner."""
     from PIL import Image as Pillow
     from PIL import ImageDraw
 
     canvas = Pillow.fromarray(pixels)
     pen = ImageDraw.Draw(canvas)
-    letters = font(max(9, min(28, max(pixels.shape[:2]) // 38)))
-    for name, mask in masks.items():
-        rows, columns = np.nonzero(mask > 0.5)
-        if rows.size:
-            at = (float(columns.mean()), float(rows.mean()))
-            text = name.replace("_", " ")
-            pen.text(at, text, (255, 255, 255), letters, anchor="mm", stroke_width=2, stroke_fill=(0, 0, 0))
+    size = max(9, min(28, max(pixels.shape[:2]) // 36))
+    for row, (name, (_, color)) in enumerate(colors.items()):
+        at = (size // 2, size // 3 + row * size * 5 // 4)
+        pen.text(at, name.replace("_", " "), color, font(size), stroke_width=max(1, size // 8), stroke_fill=(0, 0, 0))
     return np.asarray(canvas)

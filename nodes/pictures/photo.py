@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from graphface.nodes.color import encode_srgb
 from graphface.nodes.types import FloatArray, Image
-from graphface.pictures.colors import as_bytes, with_odd
+from graphface.pictures.colors import as_bytes, share_beyond, with_odd
 from graphface.values.picture import Picture, View, picked
 
 Pixels = NDArray[np.uint8]
@@ -33,7 +33,7 @@ def draw_image(image: Image, view: View) -> Picture:
         board = np.where((rows[:, None] + columns) % 2, 110, 150)[..., None]
         cover = np.clip(np.nan_to_num(alpha), 0, 1)[..., None]
         pixels = np.rint(pixels * cover + board * (1 - cover)).astype(np.uint8)
-    over = float((seen.max(axis=2) > 1).mean()) if seen.size and seen.max() > 1 else 0.0
+    over = share_beyond(seen, 1)
     note += f", {over:.1%} of the pixels are brighter" if over >= 0.0005 else ""
     return Picture(pixels, with_odd(note, seen), data, channels, (image.height, image.width))
 
@@ -66,17 +66,22 @@ def backdrop(view: View, full: tuple[int, ...], shown: tuple[int, ...]) -> Pixel
     photo = photo_for(view, full, shown)
     if photo is None:
         return np.full((*shown[:2], 3), 64, np.uint8)
+    return darkened(photo)
+
+
+def darkened(photo: Pixels) -> Pixels:
+    """Grey, and so dark that colors show on it."""
     grey = cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY)
     return np.asarray(cv2.cvtColor(_DARKENED[grey], cv2.COLOR_GRAY2RGB))
 
 
 def tinted(under: Pixels, weights: list[FloatArray], colors: list[Any], strength: float = 0.6) -> Pixels:
     """A picture with colors laid over it, each with its weight H x W, 0..1, one after the other."""
-    mixed = under.copy()
-    flat = mixed.reshape(-1, 3)
+    mixed = under
     for weight, color in zip(weights, colors, strict=True):
-        there = np.flatnonzero(weight > 0)
-        cover = np.minimum(weight.reshape(-1)[there], 1)[:, None] * np.float32(strength)
-        below = flat[there].astype(np.float32)
-        flat[there] = np.rint(below + (np.asarray(color, np.float32) - below) * cover)
-    return mixed
+        cover = np.clip(np.nan_to_num(weight), 0, 1).astype(np.float32) * np.float32(strength)
+        plain = np.empty_like(mixed)
+        for channel in range(3):  # faster than all three at once
+            plain[..., channel] = color[channel]
+        mixed = np.asarray(cv2.blendLinear(plain, mixed, cover, 1 - cover))
+    return mixed.copy() if mixed is under else mixed

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphface.nodes.types.arrays import Albedo, Detail, FloatArray, Gain, Mask, Shading
 from graphface.nodes.types.geometry import Mesh
 from graphface.nodes.types.image import Image
-from graphface.nodes.types.pictures import picture_gain, picture_signed
 
 
 @dataclass(frozen=True)
@@ -66,10 +64,6 @@ class DetailMap:
                 pairs[name] = (neutral if own is None else own, neutral if others is None else others)
         return pairs
 
-    @staticmethod
-    def picture(detail: DetailMap) -> NDArray[np.uint8]:
-        return picture_signed(detail.offset) if detail.gain is None else picture_gain(detail.gain)
-
 
 @dataclass(frozen=True)
 class TexturedMesh:
@@ -90,9 +84,3 @@ class Texture:
 
     image: Image
     seen: Mask
-
-    @staticmethod
-    def picture(texture: Texture) -> NDArray[np.uint8]:
-        """The texture over grey where nothing was seen."""
-        seen = texture.seen[..., None]
-        return Image.picture(texture.image.with_pixels(texture.image.pixels * seen + 0.5 * (1 - seen)))

@@ -8,14 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import ArrayType
-from graphface.nodes.types.pictures import (
-    picture_albedo,
-    picture_depth,
-    picture_gain,
-    picture_normals,
-    picture_signed,
-    picture_unit,
-)
 
 FloatArray = NDArray[np.float32]
 
@@ -25,7 +17,7 @@ Encoding = Literal["srgb", "linear"]
 
 Mask = Annotated[
     FloatArray,
-    ArrayType("Mask", "H W", doc="Coverage, 0 outside to 1 inside.", picture=picture_unit, low=0, high=1),
+    ArrayType("Mask", "H W", doc="Coverage, 0 outside to 1 inside.", low=0, high=1),
 ]
 
 
@@ -35,7 +27,6 @@ Normals = Annotated[
         "Normals",
         "H W 3",
         doc="Unit normals in the camera frame; (0, 0, 0): no surface.",
-        picture=picture_normals,
         low=-1,
         high=1,
     ),
@@ -48,24 +39,17 @@ Depth = Annotated[
         "Depth",
         "H W",
         doc="z in the camera frame, pixels, larger is nearer; 0 where there is no surface.",
-        picture=picture_depth,
     ),
 ]
 
 
-Albedo = Annotated[
-    FloatArray, ArrayType("Albedo", "H W 3", doc="Reflectance: color over shading.", picture=picture_albedo, low=0)
-]
+Albedo = Annotated[FloatArray, ArrayType("Albedo", "H W 3", doc="Reflectance: color over shading.", low=0)]
 
 
-Shading = Annotated[
-    FloatArray, ArrayType("Shading", "...", doc="Irradiance, H x W or H x W x 3.", picture=picture_unit, low=0)
-]
+Shading = Annotated[FloatArray, ArrayType("Shading", "...", doc="Irradiance, H x W or H x W x 3.", low=0)]
 
 
-Detail = Annotated[
-    FloatArray, ArrayType("Detail", "H W 3", doc="Photo minus rendering, signed.", picture=picture_signed)
-]
+Detail = Annotated[FloatArray, ArrayType("Detail", "H W 3", doc="Photo minus rendering, signed.")]
 
 
 Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector in the camera frame; (0, 0, 0): none.")]
@@ -73,7 +57,7 @@ Direction = Annotated[FloatArray, ArrayType("Direction", "3", doc="Unit vector i
 
 Gain = Annotated[
     FloatArray,
-    ArrayType("Gain", "H W 3", doc="Photo over rendering, a factor.", picture=picture_gain, low=0),
+    ArrayType("Gain", "H W 3", doc="Photo over rendering, a factor.", low=0),
 ]
 
 

@@ -6,10 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphface.nodes.types.arrays import FloatArray, Mask
-from graphface.nodes.types.pictures import as_bytes
 
 
 @dataclass(frozen=True)
@@ -40,15 +38,6 @@ class Correspondence:
             return self.valid
         both: Mask = np.maximum(self.valid, self.mirrored_valid)
         return both
-
-    @staticmethod
-    def picture(correspondence: Correspondence) -> NDArray[np.uint8]:
-        """A checkerboard of the reference drawn onto the input; grey where nothing corresponds."""
-        height, width = correspondence.size
-        cell = max(height, width, 1) / 32
-        board = (np.floor(correspondence.places / cell).sum(axis=2) % 2) * 0.6 + 0.2
-        shown = np.where(correspondence.inside * correspondence.valid > 0.5, board, 0.5)
-        return as_bytes(shown)
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphface.nodes.types.arrays import Mask
-from graphface.nodes.types.pictures import as_bytes
 
 
 @dataclass(frozen=True)
@@ -43,15 +41,6 @@ class Features:
             np.maximum(largest, mask, out=largest)
         return largest
 
-    @staticmethod
-    def picture(features: Features) -> NDArray[np.uint8]:
-        """Red lips and cheeks, green lids and nose, blue brows; the openings white."""
-        openings = features.any_of("eyes", "mouth")
-        red = np.maximum(features.lips, 0.5 * features.cheeks)
-        green = np.maximum(features.lids, 0.5 * features.nose)
-        colors = np.stack([np.maximum(c, openings) for c in (red, green, features.brows)], axis=2)
-        return as_bytes(colors)
-
 
 @dataclass(frozen=True)
 class HeadMasks:
@@ -75,12 +64,6 @@ class Segmentation:
     face: Mask
     hair: Mask
     background: Mask
-
-    @staticmethod
-    def picture(segmentation: Segmentation) -> NDArray[np.uint8]:
-        """Red is hair, green is face."""
-        parts = [segmentation.hair, segmentation.face, np.zeros_like(segmentation.face)]
-        return as_bytes(np.stack(parts, axis=2))
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphface.nodes.types.arrays import Direction, FloatArray, Shading
-from graphface.nodes.types.image import Image
 
 
 @dataclass(frozen=True)
@@ -52,9 +50,3 @@ class Environment:
     """
 
     radiance: FloatArray
-
-    @staticmethod
-    def picture(environment: Environment) -> NDArray[np.uint8]:
-        """Encoded to sRGB, with the mean radiance at mid grey where it is brighter than the picture can show."""
-        radiance = environment.radiance
-        return Image.picture(Image(radiance / max(1.0, 4 * float(radiance.mean())), encoding="linear"))

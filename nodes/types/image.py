@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from graphface.nodes.color import encode_srgb
 from graphface.nodes.types.arrays import Encoding, FloatArray
-from graphface.nodes.types.pictures import as_bytes
 
 
 @dataclass(frozen=True)
@@ -64,11 +62,37 @@ class Image:
     def coerce(cls, value: object) -> Image:
         return image_from_array(value)
 
-    @staticmethod
-    def picture(image: Image) -> NDArray[np.uint8]:
-        return as_bytes(encode_srgb(image.pixels) if image.encoding == "linear" else image.pixels)
+    def save(self, path: str | Path) -> None:
+        """Write it to a file, PNG, JPEG, WebP or TIFF by the suffix, with what its own file had besides.
+
+        Raises:
+            UnwritableFile: the folder refuses, or the suffix is another.
+        """
+        from graphface.registry import default_registry
+        from graphface.values.port_types import PortType
+        from graphface.values.writing import write_output
+
+        write_output(self, PortType((Image,)), Path(path), default_registry().files)
+
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows."""
+        import io
+
+        import PIL.Image
+
+        from graphface.pictures import draw
+        from graphface.registry import default_registry
+        from graphface.values.picture import View
+        from graphface.values.port_types import PortType
+
+        picture = draw(self, PortType((Image,)), default_registry(), View(size=_SHOWN))
+        held = io.BytesIO()
+        PIL.Image.fromarray(picture.pixels).save(held, "PNG")
+        return held.getvalue()
 
 
+_SHOWN = 1000
+"""Longer side, in pixels, of a photo in a notebook."""
 BRIGHTEST = 64.0
 """Largest value of a floating-point picture; one with larger values is probably in 0..255, and refused."""
 

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface.nodes.types.arrays import Encoding, FloatArray, Mask
-from graphface.nodes.types.pictures import as_bytes
 
 
 @dataclass(frozen=True)
@@ -83,9 +82,3 @@ class Shadows:
 
     lights: tuple[int, ...]
     visible: FloatArray
-
-    @staticmethod
-    def picture(shadows: Shadows) -> NDArray[np.uint8]:
-        """The maps side by side."""
-        tiles = list(shadows.visible) or [np.ones(shadows.visible.shape[1:], np.float32)]
-        return as_bytes(np.concatenate(tiles, axis=1))

@@ -14,7 +14,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from graphface.report.blobs import Sheet
+from graphface.report.blobs import Blobs, Sheet
 
 
 def page(title: str, body: str, *, styles: list[str], scripts: list[str], data: dict[str, Any]) -> str:
@@ -51,9 +51,14 @@ def layer(sheet: Sheet, label: str, *, title: str = "") -> dict[str, Any]:
     }
     if sheet.packed is not None and sheet.full is not None:
         told = asdict(sheet.packed)
-        del told["packed"]
-        made |= {"data": {**told, "blob": sheet.data}, "full": list(sheet.full), "channels": list(sheet.channels)}
+        told["planes"] = list(sheet.planes)
+        made |= {"data": told, "full": list(sheet.full)}
     return made
+
+
+def texts(blobs: Blobs) -> list[str]:
+    """The blobs as a page holds them, in base64."""
+    return [b64encode(content).decode("ascii") for content in blobs.contents]
 
 
 def message(label: str, words: str) -> dict[str, Any]:

@@ -35,13 +35,14 @@ const GraphfaceCompare = (() => {
 
   // The values that graphface.report.packing packed, as planes of height x width.
   async function unpack(packed, blobs) {
-    const raw = await inflate(blobs[packed.blob]);
-    const {height, width, channels, bits} = packed, size = height * width, count = size * channels;
+    const raws = await Promise.all(packed.planes.map(index => inflate(blobs[index])));
+    const {height, width, channels, bits} = packed, size = height * width;
     const mask = bits === 8 ? 255 : 65535, planes = [];
     for (let k = 0; k < channels; k++) {
+      const raw = raws[k];
       const codes = new Uint16Array(size), values = new Float64Array(size);
-      for (let i = 0, at = k * size; i < size; i++, at++) {
-        const zigzag = bits === 8 ? raw[at] : (raw[at] << 8) | raw[count + at];
+      for (let i = 0; i < size; i++) {
+        const zigzag = bits === 8 ? raw[i] : (raw[i] << 8) | raw[size + i];
         const x = i % width, left = x ? codes[i - 1] : 0, above = i >= width ? codes[i - width] : 0;
         const corner = x && i >= width ? codes[i - width - 1] : 0;
         const low = Math.min(left, above), high = Math.max(left, above);

@@ -20,12 +20,11 @@ from graphface.report.difference.recorded import read_recorded
 from graphface.report.difference.side import Side, failure_of
 from graphface.report.difference.tolerance import GOLDEN, Tolerance
 from graphface.report.difference.values import differences
-from graphface.report.dump import read_value
+from graphface.report.dump import RUN, read_value, value_path
 from graphface.report.trace import jsonable
 from graphface.values.picture import View
 from graphface.values.port_types import PortType
 
-RUN = "run.json"
 _HAD = ("ran", "memory", "disk")
 """States of a node that has a value."""
 
@@ -61,7 +60,7 @@ class Dumped:
         graph = self._other.request.graph
         step = graph.step(self._other.needed[name])
         annotation = step.operator.output_annotation if step is not None else Any
-        return read_value(self.folder / f"{name}.npz", annotation)
+        return read_value(value_path(self.folder, name), annotation)
 
     def type_of(self, name: str) -> PortType:
         return self._other.type_of(name)

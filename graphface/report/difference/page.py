@@ -17,7 +17,7 @@ from graphface.graph.request import Request
 from graphface.graph.structure import field_type
 from graphface.pictures import draw
 from graphface.report.blobs import Blobs
-from graphface.report.compare.embed import layer, message, page
+from graphface.report.compare.embed import layer, message, page, texts
 from graphface.report.compare.mask import as_png, differing
 from graphface.report.difference.found import Differences
 from graphface.report.difference.node import NodeDifference
@@ -86,7 +86,7 @@ def page_text(compared: Compared, found: Differences, *, size: int = SIZE, title
         '<div id="differences"></div><noscript>This page needs JavaScript; nothing is loaded.</noscript>',
         styles=[(assets / "page.css").read_text(encoding="utf-8")],
         scripts=[(assets / "page.js").read_text(encoding="utf-8")],
-        data={"found": data, "blobs": drawn.blobs.texts},
+        data={"found": data, "blobs": texts(drawn.blobs)},
     )
 
 

@@ -36,7 +36,7 @@ def path(lanes: Sequence[Lane]) -> str:
     words = [f"M{x:g} {y:g}"]
     for part in parts:
         if isinstance(part[0], tuple):
-            words.append("C" + " ".join(f"{a:g} {b:g}" for a, b in part))  # type: ignore[misc]
+            words.append("C" + " ".join(f"{a:g} {b:g}" for a, b in part))
         else:
             words.append(f"H{part[0]:g}")
     return "".join(words)

@@ -8,7 +8,7 @@ from graphface.graph.wired import WiredGraph
 from graphface.report.drawing.figure import Node, Port, figure
 from graphface.report.drawing.frames import tree_of
 from graphface.report.drawing.marks import Mark
-from graphface.report.drawing.palette import family_tint, hue
+from graphface.report.drawing.palette import family_tint
 
 
 def draw_dot(graph: WiredGraph, *, marks: Mapping[str, Mark] = {}) -> str:
@@ -51,8 +51,8 @@ def _attributes(node: Node) -> Iterator[str]:
     fields = [_ports("i", node.inputs), middle, _ports("o", node.outputs)]
     yield f'label="{" | ".join(f for f in fields if f)}"'
     yield f"tooltip={quoted(f'{node.name} {node.operator}')}"
-    if node.family:
-        yield f'fillcolor="{family_tint(hue(node.family), "light")}"'
+    if node.hue is not None:
+        yield f'fillcolor="{family_tint(node.hue, "light")}"'
     if node.mark is not None and node.mark.dimmed:
         yield 'style="filled,dashed", fontcolor="#8b95a3"'
 

@@ -10,6 +10,7 @@ from graphface.graph.structure import GraphInput, Ref, Step, field_type
 from graphface.graph.wired import WiredGraph
 from graphface.report.drawing.boxes import Box, Wire
 from graphface.report.drawing.marks import Mark
+from graphface.report.drawing.palette import hue
 from graphface.report.drawing.text_width import text_width, wrapped
 
 TITLE_SIZE, TEXT_SIZE, PORT_SIZE = 13.0, 11.0, 10.5
@@ -51,13 +52,14 @@ class Node:
     """An input or node of the graph, as it is drawn.
 
     Attributes:
-        name: the whole path. operator: its name; of an input the type. family: empty for an input.
-        doc: the first sentence of what is known about it. results: the declared outputs that it is.
+        name: the whole path. operator: its name; of an input what kind of input it is.
+        hue: of the operator's family, in degrees; None for an input. doc: the first paragraph of what it says.
+        results: the declared outputs that it is, or that are fields of it.
     """
 
     name: str
     operator: str
-    family: str
+    hue: int | None
     doc: str
     inputs: Sequence[Port]
     outputs: Sequence[Port]
@@ -76,10 +78,6 @@ class Node:
         """The lines that its mark says; two where there is a reason."""
         words = self.mark.words if self.mark is not None else ""
         return wrapped(words, self.width - 2 * INSET, PORT_SIZE, 2)
-
-    @property
-    def is_input(self) -> bool:
-        return not self.family and not self.inputs
 
     @property
     def below_ports(self) -> float:
@@ -168,7 +166,7 @@ def _of_input(
 ) -> Node:
     optional = "optional input" if given.type.optional else "input"
     words = "input with default" if given.default is not None else optional
-    return Node(given.name, words, "", given.doc, (), outputs, results, mark, thumbnail, 0, 0)
+    return Node(given.name, words, None, given.doc, (), outputs, results, mark, thumbnail, 0, 0)
 
 
 def _of_step(step: Step, outputs: Sequence[Port], results: Sequence[str], mark: Mark | None, thumbnail: str) -> Node:
@@ -179,7 +177,7 @@ def _of_step(step: Step, outputs: Sequence[Port], results: Sequence[str], mark: 
         for number, (name, port) in enumerate(operator.inputs.items())
     ]
     doc = operator.doc.partition("\n\n")[0]
-    return Node(step.name, operator.name, operator.family, doc, inputs, outputs, results, mark, thumbnail, 0, 0)
+    return Node(step.name, operator.name, hue(operator.family), doc, inputs, outputs, results, mark, thumbnail, 0, 0)
 
 
 def _row(number: int) -> float:
@@ -207,9 +205,7 @@ def _sized(node: Node) -> Node:
     return replace(node, height=height)
 
 
-def _cords(
-    graph: WiredGraph, nodes: Sequence[Node], taken: Sequence[Sequence[tuple[str, ...]]]
-) -> Iterator[Cord]:
+def _cords(graph: WiredGraph, nodes: Sequence[Node], taken: Sequence[Sequence[tuple[str, ...]]]) -> Iterator[Cord]:
     for step in graph.steps:
         node = nodes[step.slot]
         into = {port.name: port for port in node.inputs}

@@ -48,9 +48,7 @@ def draw(graph: WiredGraph, form: Format, marks: Mapping[str, Mark] = {}) -> byt
     return _bytes(draw_svg(graph, marks=marks))
 
 
-def write_drawing(
-    graph: WiredGraph, path: Path, form: Format | None = None, marks: Mapping[str, Mark] = {}
-) -> None:
+def write_drawing(graph: WiredGraph, path: Path, form: Format | None = None, marks: Mapping[str, Mark] = {}) -> None:
     """Write the drawing to a file, whole or not at all.
 
     Args:

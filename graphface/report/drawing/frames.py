@@ -17,17 +17,16 @@ class Tree:
 
     def walk(self) -> Iterator[tuple[int, Node | str | None]]:
         """Depth and box, or the path of a frame that opens, or None where it closes; its boxes stand between."""
-        stack: list[tuple[Tree, Iterator[Node | Tree]]] = [(self, iter(self.children))]
+        stack = [iter(self.children)]
         while stack:
-            tree, children = stack[-1]
-            child = next(children, None)
+            child = next(stack[-1], None)
             if child is None:
                 stack.pop()
                 if stack:
                     yield len(stack) - 1, None
             elif isinstance(child, Tree):
                 yield len(stack) - 1, child.path
-                stack.append((child, iter(child.children)))
+                stack.append(iter(child.children))
             else:
                 yield len(stack) - 1, child
 

@@ -8,6 +8,7 @@ below one another, columns beside each other, and lanes keep wires out of what t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import ceil
 
 from graphface.report.drawing.boxes import Box, Lane, Layout, Rect, Wire
 from graphface.report.drawing.level import Level, Passage, arrange
@@ -16,6 +17,8 @@ from graphface.report.drawing.nesting import BORDER, Link, Nesting
 TITLE = 30.0
 """What a frame leaves free above its boxes for its title."""
 _MARGIN = 16.0
+_ROUNDED = 0.11
+"""How far two places may differ that are the same before they are rounded."""
 
 
 def layout(boxes: Sequence[Box], wires: Sequence[Wire], folded: Mapping[str, tuple[float, float]] = {}) -> Layout:
@@ -55,8 +58,8 @@ class _Placing:
             if any(self._levels[frame].back[self._numbers[frame][link]] for frame, link in hops)
         }
         return Layout(
-            width,
-            height,
+            ceil(width),
+            ceil(height),
             {box.name: rects[number] for number, box in enumerate(self._boxes) if number in rects},
             {frame.path: rects[number] for number, frame in nesting.frames.items() if number != nesting.root},
             frozenset(nesting.frames[number].path for number in nesting.folded),
@@ -108,7 +111,12 @@ class _Placing:
             x, y = corners[frame]
             for begins, ends, down in self._levels[frame].lanes[self._numbers[frame][link]]:
                 lane = (round(x + begins, 1), round(x + ends, 1), round(y + down, 1))
-                if lanes and lanes[-1][1:] == (lane[0], lane[2]) and lanes[-1][0] <= lane[0] <= lane[1]:
+                if lanes and _go_on(lanes[-1], lane):
                     lane = (lanes.pop()[0], *lane[1:])
                 lanes.append(lane)
         return tuple(lanes)
+
+
+def _go_on(one: Lane, other: Lane) -> bool:
+    """Whether two pieces of a wire are one line to the right."""
+    return one[2] == other[2] and one[0] <= one[1] <= other[0] + _ROUNDED and other[0] <= other[1]

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil
 
+from graphface.report.drawing.bends import Chain, unbend
 from graphface.report.drawing.boxes import Lane
 from graphface.report.drawing.columns import Joint, ordered
 from graphface.report.drawing.nesting import BORDER
@@ -80,6 +83,7 @@ class _Arrangement:
             self._columns[rank].append(item)
         self._joints: dict[tuple[int, int, float, float], None] = {}
         self._shared: dict[tuple[int, ...], int] = {}
+        self._chains: dict[tuple[int, int], Chain] = {}
         self._routes = [self._route(p, back) for p, back in zip(passages, self._back, strict=True)]
 
     def level(self, top: float) -> Level:
@@ -109,12 +113,16 @@ class _Arrangement:
         source = self._border(self._entries, passage.bundle, 0) if passage.source == BORDER else passage.source
         target = self._border(self._exits, passage.bundle, last) if passage.target == BORDER else passage.target
         route, leaves = [source], passage.leaves
+        known = self._chains.get((passage.bundle, source))
         for rank in range(self._rank[source] + 1, self._rank[target]):
             lane = self._lane((passage.bundle, source, rank), rank)
             self._joints[route[-1], lane, leaves, 0.0] = None
             route.append(lane)
             leaves = 0.0
         self._joints[route[-1], target, leaves, passage.enters] = None
+        if len(route) > 1 and (known is None or len(known.lanes) < len(route) - 1):
+            chain = Chain(route[1:], (source, passage.leaves), (target, passage.enters))
+            self._chains[passage.bundle, source] = chain
         return [*route, target]
 
     def _way_back(self, passage: Passage) -> list[int]:
@@ -122,7 +130,7 @@ class _Arrangement:
         first, last = self._rank[passage.target], self._rank[passage.source]
         key = (passage.bundle, passage.source, passage.target)
         lanes = [self._lane((*key, rank), rank) for rank in range(first, last + 1)]
-        for left, right in zip(lanes, lanes[1:], strict=False):
+        for left, right in pairwise(lanes):
             self._joints[left, right, 0.0, 0.0] = None
         return [passage.source, *reversed(lanes), passage.target]
 
@@ -158,10 +166,11 @@ class _Arrangement:
             before[target].append((source, leaves - enters, weight))
             after[source].append((target, enters - leaves, weight))
         spaces = [
-            [_SPACE if a < items and b < items else _LANE_SPACE for a, b in zip(column, column[1:], strict=False)]
-            for column in columns
+            [_SPACE if a < items and b < items else _LANE_SPACE for a, b in pairwise(column)] for column in columns
         ]
-        return straightened(columns, self._heights, spaces, before, after)
+        tops = straightened(columns, self._heights, spaces, before, after)
+        unbend(list(self._chains.values()), columns, self._heights, spaces, tops)
+        return tops
 
     def _sides(self, columns: Sequence[Sequence[int]]) -> tuple[list[float], list[float]]:
         """Where every column begins and ends; the gaps between are wider where more wires cross them."""
@@ -170,7 +179,7 @@ class _Arrangement:
             crossing[self._rank[source]] += 1
         lefts, rights, x = [0.0], [0.0], PADDING + min(crossing[0] * _GAP_PER_WIRE, _WIDEST_GAP)
         for number in range(1, len(columns) - 1):
-            width = max((self._sizes[i][0] for i in columns[number] if i < len(self._sizes)), default=0.0)
+            width = ceil(max((self._sizes[i][0] for i in columns[number] if i < len(self._sizes)), default=0.0))
             lefts.append(round(x, 1))
             rights.append(round(x + width, 1))
             last = number == len(columns) - 2

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from graphface.graph.wired import WiredGraph
 from graphface.report.drawing.figure import Node, figure
 from graphface.report.drawing.frames import Tree, tree_of
 from graphface.report.drawing.marks import Mark
-from graphface.report.drawing.palette import family_tint, hue
+from graphface.report.drawing.palette import family_tint
 
 
 def draw_mermaid(graph: WiredGraph, *, marks: Mapping[str, Mark] = {}) -> str:
@@ -41,7 +41,7 @@ def _tree(tree: Tree, number: Mapping[str, str], frames: Iterator[int]) -> Itera
         elif isinstance(item, str):
             yield f"{indent}subgraph f{next(frames)}[{quoted(item.rpartition('/')[2])}]"
         else:
-            opens, closes = ("([", "])") if item.is_input else ("[", "]")
+            opens, closes = ("([", "])") if item.hue is None else ("[", "]")
             yield f"{indent}{number[item.name]}{opens}{_label(item)}{closes}"
 
 
@@ -52,11 +52,11 @@ def _label(node: Node) -> str:
     return '"' + "<br/>".join(quoted(line)[1:-1] for line in lines) + '"'
 
 
-def _classes(nodes: Iterator[Node] | list[Node], number: Mapping[str, str]) -> Iterator[str]:
+def _classes(nodes: Sequence[Node], number: Mapping[str, str]) -> Iterator[str]:
     families: dict[int, list[str]] = {}
     for node in nodes:
-        if node.family:
-            families.setdefault(hue(node.family), []).append(number[node.name])
+        if node.hue is not None:
+            families.setdefault(node.hue, []).append(number[node.name])
     for degrees, names in sorted(families.items()):
         yield f"  classDef hue{degrees} fill:{family_tint(degrees, 'light')},color:#1d2126,stroke:#8b95a3"
         yield f"  class {','.join(names)} hue{degrees}"

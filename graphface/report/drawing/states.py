@@ -15,36 +15,38 @@ from graphface.report.drawing.figure import FOLDED, Figure
 from graphface.report.drawing.layout import layout
 
 _MOST = 48
+_MOST_BOXES = 9000
+"""Of all layouts together: it bounds the size of the page and the time to make it (about 3 s)."""
 
 
 def states(drawn: Figure) -> Iterator[Layout]:
     """The layouts, that with everything open first."""
     boxes, wires = drawn.boxes, drawn.wires
-    for folded in foldings(_frames(drawn)):
+    most = max(2, min(_MOST, _MOST_BOXES // max(len(boxes), 1)))
+    for folded in foldings(_frames(drawn), most):
         yield layout(boxes, wires, dict.fromkeys(folded, FOLDED))
 
 
-def foldings(frames: Sequence[str]) -> list[frozenset[str]]:
-    """Sets of folded frames, none of them inside another; the empty set first.
+def foldings(frames: Sequence[str], most: int) -> list[frozenset[str]]:
+    """At most so many sets of folded frames, none of them inside another: the empty set first, all folded last.
 
     Args:
         frames: paths, each after the frame around it.
+        most: at least 2.
     """
-    around = {frame: frame.rpartition("/")[0] for frame in frames}
     ways: dict[str, list[frozenset[str]]] = {frame: [frozenset()] for frame in ("", *frames)}
-    for frame in (*reversed(frames), ""):
-        inside = [child for child in frames if around[child] == frame]
-        for child in inside:
-            folded = [*ways[child], frozenset({child})]
-            if len(ways[frame]) * len(folded) > _MOST:
-                return _few(frames, around)
-            ways[frame] = [one | other for one in ways[frame] for other in folded]
+    for frame in reversed(frames):
+        around = frame.rpartition("/")[0]
+        folded = [*ways[frame], frozenset({frame})]
+        if len(ways[around]) * len(folded) > most:
+            return _few(frames, most)
+        ways[around] = [one | other for one in ways[around] for other in folded]
     return ways[""]
 
 
-def _few(frames: Sequence[str], around: dict[str, str]) -> list[frozenset[str]]:
-    outermost = frozenset(frame for frame in frames if not around[frame])
-    alone = [frozenset({frame}) for frame in frames[: _MOST - 2]]
+def _few(frames: Sequence[str], most: int) -> list[frozenset[str]]:
+    outermost = frozenset(frame for frame in frames if "/" not in frame)
+    alone = [frozenset({frame}) for frame in frames[: most - 2]]
     return list(dict.fromkeys([frozenset(), *alone, outermost]))
 
 

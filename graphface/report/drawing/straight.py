@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-_ROUNDS = 40
+_ROUNDS = 12
+_STILL = 0.5
+"""Pixels: where no item moves further than this in a round, there are no more rounds."""
+_ALONE = 0.1
+"""The weight with which an item that nothing pulls stays in its place."""
 Pull = tuple[int, float, float]
-"""Another item, how far above it this item has to stand for a straight link, and the weight of the link."""
+"""Another item, how far below its top this item has to stand for a straight link, and the weight of the link."""
 
 
 def straightened(
@@ -31,39 +35,62 @@ def straightened(
             tops[item] = below
             below += heights[item] + (space[number] if number < len(space) else 0.0)
         offsets.append(down)
+    to_left, to_right = _sums(before), _sums(after)
+    both = _sums([(*one, *other) for one, other in zip(before, after, strict=True)])
+    numbers = range(len(columns))
+    for order, sums in ((numbers, to_left), (reversed(numbers), to_right)):
+        for number in order:
+            _settle(columns[number], offsets[number], tops, sums)
     for turn in range(_ROUNDS):
-        sides = (before,) if turn % 2 == 0 else (after,)
-        sides = (before, after) if turn >= _ROUNDS - 2 else sides
-        numbers = range(len(columns)) if turn % 2 == 0 else range(len(columns) - 1, -1, -1)
-        for number in numbers:
-            _settle(columns[number], offsets[number], tops, sides)
-    for number in {0, len(columns) - 1}:  # the borders follow where the wires ended up
-        _settle(columns[number], offsets[number], tops, (before, after))
+        order = reversed(numbers) if turn % 2 else numbers
+        if max((_settle(columns[n], offsets[n], tops, both) for n in order), default=0.0) < _STILL:
+            break
+    for number in (0, -1):  # the borders follow where the wires ended up
+        _settle(columns[number], offsets[number], tops, both)
     return tops
 
 
-def _settle(
-    column: Sequence[int], offsets: Sequence[float], tops: list[float], sides: Sequence[Sequence[Sequence[Pull]]]
-) -> None:
-    """Least squares under the spacing: neighbors that want into each other move as one (isotonic regression)."""
-    pools: list[list[float]] = []  # mean, weight, count
+_Sum = tuple[Sequence[tuple[int, float]], float, float]
+"""What one item is pulled by: others with their weights, the weighted sum of the shifts, the sum of the weights."""
+
+
+def _sums(pulls: Sequence[Sequence[Pull]]) -> list[_Sum]:
+    return [
+        (
+            [(other, weight) for other, _, weight in of_item],
+            sum(shift * weight for _, shift, weight in of_item),
+            sum(weight for _, _, weight in of_item),
+        )
+        for of_item in pulls
+    ]
+
+
+def _settle(column: Sequence[int], offsets: Sequence[float], tops: list[float], sums: Sequence[_Sum]) -> float:
+    """Least squares under the spacing: neighbors that want into each other move as one (isotonic regression).
+
+    How far the item that moved most did.
+    """
+    pools: list[tuple[float, float, int]] = []  # mean, weight, count
     for item, offset in zip(column, offsets, strict=True):
-        wanted = weight = 0.0
-        for side in sides:
-            for other, shift, pull in side[item]:
-                wanted += pull * (tops[other] + shift)
-                weight += pull
-        if not weight:
-            wanted, weight = tops[item] * 0.1, 0.1
-        pools.append([wanted / weight - offset, weight, 1])
-        while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
-            mean, weight, count = pools.pop()
-            upper = pools[-1]
-            upper[0] = (upper[0] * upper[1] + mean * weight) / (upper[1] + weight)
-            upper[1] += weight
-            upper[2] += count
-    at = 0
+        others, mean, weight = sums[item]
+        if others:
+            for other, pull in others:
+                mean += pull * tops[other]
+            mean = mean / weight - offset
+        else:
+            mean, weight = tops[item] - offset, _ALONE
+        count = 1
+        while pools and pools[-1][0] > mean:
+            upper, heavier, more = pools.pop()
+            mean = (upper * heavier + mean * weight) / (heavier + weight)
+            weight += heavier
+            count += more
+        pools.append((mean, weight, count))
+    at, moved = 0, 0.0
     for mean, _, count in pools:
-        for _ in range(int(count)):
-            tops[column[at]] = mean + offsets[at]
-            at += 1
+        for place in range(at, at + count):
+            item, top = column[place], mean + offsets[place]
+            moved = max(moved, abs(tops[item] - top))
+            tops[item] = top
+        at += count
+    return moved

@@ -33,17 +33,18 @@ def style(hues: Iterable[int]) -> str:
     """The rules for the families of these hues, light and dark."""
     known = sorted(hues)
     dark = f"@media (prefers-color-scheme: dark) {{{_colors('dark', known)}}}"
-    return (_SHAPES + _colors("light", known) + dark).replace("D .", ".graphface-drawing .").replace(
-        "D text", ".graphface-drawing text"
+    return (
+        (_SHAPES + _colors("light", known) + dark)
+        .replace("D .", ".graphface-drawing .")
+        .replace("D text", ".graphface-drawing text")
     )
 
 
 def _colors(theme: Theme, hues: Iterable[int]) -> str:
     c = COLORS[theme]
-    families = "".join(
-        f"D .hue-{h} .stripe {{ fill: {family_color(h, theme)}; }} D .hue-{h} .band {{ fill: {family_tint(h, theme)}; }}\n"
-        for h in hues
-    )
+    stripes = (f"D .hue-{h} .stripe {{ fill: {family_color(h, theme)}; }}\n" for h in hues)
+    bands = (f"D .hue-{h} .band {{ fill: {family_tint(h, theme)}; }}\n" for h in hues)
+    families = "".join((*stripes, *bands))
     return f"""
 D .paper {{ fill: {c.paper}; }}
 D .box {{ fill: {c.box}; stroke: {c.edge}; }}

@@ -30,7 +30,7 @@ from graphface.report.drawing.figure import (
 )
 from graphface.report.drawing.layout import layout
 from graphface.report.drawing.marks import Mark
-from graphface.report.drawing.palette import heat_color, hue
+from graphface.report.drawing.palette import heat_color
 from graphface.report.drawing.style import style
 from graphface.report.drawing.text_width import fitted, text_width
 
@@ -62,7 +62,7 @@ def svg_of(drawn: Figure, placed: Layout, name: str) -> str:
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" class="graphface-drawing" viewBox="0 0 {width:g} {height:g}" '
         f'width="{width:g}" height="{height:g}" role="img" aria-label="{escape(name)}">',
-        f"<style>{style({hue(node.family) for node in drawn.nodes if node.family})}</style>",
+        f"<style>{style({node.hue for node in drawn.nodes if node.hue is not None})}</style>",
         f'<rect class="paper" width="{width:g}" height="{height:g}"/>',
         *(_frame(frame, rect, frame in placed.folded, drawn) for frame, rect in placed.frames.items()),
         '<g class="wires">',
@@ -128,7 +128,7 @@ def _node(node: Node, rect: Rect) -> Iterator[str]:
 
 
 def _classes(node: Node) -> str:
-    words = ["node", f"hue-{hue(node.family)}" if node.family else "input"]
+    words = ["node", f"hue-{node.hue}" if node.hue is not None else "input"]
     if node.results:
         words.append("result")
     if node.mark is not None and node.mark.state:

@@ -38,7 +38,8 @@ def fitted(text: str, room: float, size: float, *, bold: bool = False) -> str:
 
 def wrapped(text: str, room: float, size: float, most: int) -> list[str]:
     """The text in at most so many lines, broken at spaces; the last one is cut where there is more."""
-    words, lines = text.split(), []
+    words = text.split()
+    lines: list[str] = []
     while words and len(lines) < most - 1:
         taken = 1
         while taken < len(words) and text_width(" ".join(words[: taken + 1]), size) <= room:

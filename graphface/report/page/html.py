@@ -1,7 +1,7 @@
 """The page of a run: model, drawing, styles and scripts in one file that asks nobody for anything.
 
 Texts of graphs, parameters and files are only in JSON, which the script puts on the page as text; the drawing escapes
-its own. A content security policy backs that up: the browser runs this one script, known by its hash, and loads nothing.
+its own. A content security policy backs that up: browsers run this one script, known by its hash, and load nothing.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from graphface.report.drawing.marks import Mark, MarkState
 from graphface.report.drawing.svg import draw_svg
 from graphface.report.page.model import model
 from graphface.report.page.read import RUN
+from graphface.report.page.seven_bit import seven_bit
 from graphface.report.recorder import Recorder
 from graphface.values.writing import beside, check_folder
 
@@ -34,7 +35,7 @@ def write_report(recorder: Recorder, path: Path) -> None:
     """
     page = report_page(recorder)
     with beside(path) as temporary:
-        temporary.write_text(page, encoding="utf-8")
+        temporary.write_bytes(page.encode("utf-8"))
 
 
 def check_report(path: Path) -> None:
@@ -53,7 +54,8 @@ def report_page(recorder: Recorder) -> str:
     shown = model(recorder)
     assert recorder.request is not None
     script = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
-    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{_hash(script)}'"
+    blobs = "\n".join(map(seven_bit, recorder.blobs.contents))
+    policy = f"default-src 'none'; img-src blob:; style-src 'unsafe-inline'; script-src 'sha256-{_hash(script)}'"
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -69,7 +71,7 @@ def report_page(recorder: Recorder) -> str:
 <template id="svg">{_drawing(recorder, shown["nodes"])}</template>
 <script type="application/json" id="{RUN}">{embedded(recorder.trace.as_json())}</script>
 <script type="application/json" id="report">{embedded(shown)}</script>
-<script type="application/json" id="blobs">{embedded(recorder.blobs.texts)}</script>
+<script type="text/plain" id="blobs">{blobs}</script>
 <script type="module">{script}</script>
 </body>
 </html>
@@ -77,7 +79,7 @@ def report_page(recorder: Recorder) -> str:
 
 
 def _drawing(recorder: Recorder, nodes: list[dict[str, Any]]) -> str:
-    """The graph with the state of every node. Thumbnails are named by the number of their blob: they are stored once."""
+    """The graph with the state of every node. Thumbnails are the numbers of blobs, which are stored once."""
     assert recorder.request is not None
     marks = {node["name"]: _mark(node) for node in nodes}
     thumbnails = {n["name"]: f"data:image/webp;#{n['sheets'][0]['image']}" for n in nodes if n["sheets"]}
@@ -86,6 +88,8 @@ def _drawing(recorder: Recorder, nodes: list[dict[str, Any]]) -> str:
 
 def _mark(node: dict[str, Any]) -> Mark:
     state: MarkState = "failed" if node["state"] == "stopped" else node["state"]
+    if node["state"] == "blocked":
+        return Mark(state, label=node["reason"])
     label = {"memory": "from memory", "disk": "from disk", "skipped": "not run"}.get(node["state"], node["state"])
     if node["state"] == "ran":
         label = f"ran {node['seconds'] * 1e3:.3g} ms" if node["seconds"] < 1 else f"ran {node['seconds']:.3g} s"

@@ -10,7 +10,8 @@ from typing import Any
 
 from graphface.document.effective import origin
 from graphface.errors import NodeError
-from graphface.graph.structure import Argument, Step
+from graphface.evaluate.reason import Reason
+from graphface.graph.structure import Argument, Ref, Step
 from graphface.place import Place
 from graphface.report.array_figures import Figures
 from graphface.report.blobs import Sheet
@@ -59,7 +60,7 @@ def _node(recorder: Recorder, entry: Seen) -> Json:
     shown: Json = {
         "name": name,
         "state": state,
-        "reason": "a node above it failed" if state == "blocked" else entry.reason,
+        "reason": _reason(recorder, entry, state),
         "start": entry.start,
         "thread": entry.thread,
         "value": recorder.trace.summaries.get(name, ""),
@@ -80,6 +81,20 @@ def _state(recorder: Recorder, entry: Seen, name: str) -> str:
     if entry.record is not None:
         return entry.record.state
     return "stopped" if recorder.began(name) else "skipped"
+
+
+def _reason(recorder: Recorder, entry: Seen, state: str) -> str:
+    assert recorder.request is not None
+    graph = recorder.request.graph
+    if state == "blocked":
+        behind = {graph.names[slot] for slot in graph.behind([Ref(entry.slot)])}
+        failed = [r.name for r in recorder.trace.records if r.state == "failed" and r.name in behind]
+        return f"blocked by {', '.join(failed)}" if failed else entry.reason
+    if state == "stopped":
+        return "the run ended here"
+    if recorder.stopped_by is not None and entry.reason == str(Reason("not reached")):
+        return "the run ended before it was needed"
+    return entry.reason
 
 
 def _of_step(recorder: Recorder, step: Step) -> Json:
@@ -149,7 +164,7 @@ def _sheet(sheet: Sheet) -> Json:
     packed = sheet.packed
     if packed is not None:
         shown["data"] = {
-            "blob": sheet.data,
+            "planes": sheet.planes,
             "height": packed.height,
             "width": packed.width,
             "channels": packed.channels,

@@ -35,9 +35,8 @@ function showPanel(node) {
 
 function head(node) {
   const facts = [];
-  if (node.state === "ran" || node.state === "failed") {
-    facts.push(`${duration(node.seconds)}, CPU ${duration(node.cpu)}`);
-  }
+  if (node.state === "ran") facts.push(`${duration(node.seconds)}, CPU ${duration(node.cpu)}`);
+  if (node.state === "failed") facts.push(`after ${duration(node.seconds)}`);
   if (node.bytes) facts.push(size(node.bytes));
   if (node.thread) facts.push(node.thread);
   return element(

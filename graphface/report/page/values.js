@@ -5,9 +5,7 @@ const POSITIVE = 65534;
 const NEGATIVE = 65535;
 
 async function inflated(index) {
-  const text = atob(BLOBS[index]);
-  const bytes = Uint8Array.from(text, (character) => character.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new Blob([bytesOf(index)]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -19,24 +17,23 @@ function predicted(left, above, corner) {
 
 class Values {
   static async of(data) {
-    const bytes = await inflated(data.blob);
-    return new Values(data, bytes);
+    return new Values(data, await Promise.all(data.planes.map(inflated)));
   }
 
-  constructor(data, bytes) {
+  constructor(data, planes) {
     this.data = data;
-    const { height, width, channels, bits } = data;
-    const count = height * width * channels;
-    const codes = new Uint16Array(count);
+    const { height, width, bits } = data;
+    const count = height * width;
+    const codes = new Uint16Array(count * planes.length);
     const mask = (1 << bits) - 1;
     let at = 0;
-    for (let channel = 0; channel < channels; channel++) {
-      for (let y = 0; y < height; y++) {
-        for (let x = 0; x < width; x++, at++) {
+    for (const bytes of planes) {
+      for (let y = 0, i = 0; y < height; y++) {
+        for (let x = 0; x < width; x++, i++, at++) {
           const left = x ? codes[at - 1] : 0;
           const above = y ? codes[at - width] : 0;
           const corner = x && y ? codes[at - width - 1] : 0;
-          const zigzag = bits === 8 ? bytes[at] : (bytes[at] << 8) | bytes[count + at];
+          const zigzag = bits === 8 ? bytes[i] : (bytes[i] << 8) | bytes[count + i];
           codes[at] = (predicted(left, above, corner) + ((zigzag >> 1) ^ -(zigzag & 1))) & mask;
         }
       }

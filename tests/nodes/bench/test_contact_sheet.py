@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
-from graphface.nodes.bench.contact_sheet import around_face, contact_sheet, mesh_overlay, picture_of
-from graphface.nodes.types import DetailMap, Image
+from graphface.nodes.bench.contact_sheet import around_face, contact_sheet, mesh_overlay
+from graphface.nodes.pictures.photo import bytes_of
 
 
 class TestContactSheet:
@@ -45,20 +44,6 @@ class TestAroundFace:
 def test_mesh_overlay(make_face):
     """The mesh changes the photo where the face is and nowhere else."""
     photo, landmarks, mesh, _ = make_face(size=160, scale=0.2)
-    changed = (mesh_overlay(photo, mesh, landmarks) != Image.picture(photo)).any(axis=2)
+    changed = (mesh_overlay(photo, mesh, landmarks) != bytes_of(photo)).any(axis=2)
     assert changed[70:90, 70:90].any()
     assert not changed[:20].any()
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("Mask", np.ones((4, 5), np.float32)),
-        ("Image", Image(np.ones((4, 5, 3), np.float32))),
-        ("DetailMap", DetailMap(np.zeros((4, 5, 3), np.float32))),
-    ],
-)
-def test_picture_of(name, value):
-    """Arrays and dataclasses alike are drawn as their type says."""
-    drawn = picture_of(value, name)
-    assert (drawn.dtype, drawn.shape[:2]) == (np.uint8, (4, 5))

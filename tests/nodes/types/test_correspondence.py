@@ -16,15 +16,6 @@ class TestPins:
             Pins.coerce(value)
 
 
-class TestPicture:
-    def test_unknown_is_grey(self):
-        """Where nothing corresponds the board is mid grey."""
-        nothing = np.zeros((4, 4), np.float32)
-        drawn = Correspondence.picture(Correspondence(np.zeros((4, 4, 2), np.float32), nothing, nothing, (4, 4)))
-        assert drawn.shape == (4, 4, 3)
-        assert set(np.unique(drawn)) == {128}
-
-
 class TestKnown:
     def test_is_the_better_of_both_places(self):
         """Where the point or its mirror image is shown."""

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphface.nodes.types import (
-    Features,
-    Segmentation,
-)
+from graphface.nodes.types import Features
 
 
 def features(**masks):
@@ -22,19 +19,3 @@ class TestFeatures:
         made = features(eyes=[[0.2, 0], [0, 1]], mouth=[[0.5, 0], [0, 0]])
         np.testing.assert_array_equal(made.any_of("eyes", "mouth"), np.float32([[0.5, 0], [0, 1]]))
         assert made.any_of("eyes") is not made.eyes
-
-    def test_picture(self):
-        """Openings are white, lips red, lids green, brows blue."""
-        made = features(eyes=[[1, 0], [0, 0]], lips=[[0, 1], [0, 0]], lids=[[0, 0], [1, 0]], brows=[[0, 0], [0, 1]])
-        np.testing.assert_array_equal(
-            Features.picture(made), [[[255, 255, 255], [255, 0, 0]], [[0, 255, 0], [0, 0, 255]]]
-        )
-
-
-class TestSegmentation:
-    def test_picture(self):
-        """Hair is red, face green, background black."""
-        hair, face = np.float32([[1, 0, 0]]), np.float32([[0, 1, 0]])
-        np.testing.assert_array_equal(
-            Segmentation.picture(Segmentation(face, hair, 1 - hair - face)), [[[255, 0, 0], [0, 255, 0], [0, 0, 0]]]
-        )

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
+import PIL.Image as Pillow
 import pytest
 from pictures import smooth
 
+from graphface import UnwritableFile
+from graphface.nodes.io.image_read import read_image
 from graphface.nodes.types import FileFormat, Image
 from graphface.nodes.types.image import image_from_array
 
@@ -55,7 +60,16 @@ class TestImage:
         assert (other.file, other.encoding) == (image.file, "linear")
         assert image.with_pixels(smooth()).encoding == "srgb"
 
-    def test_picture_is_encoded(self):
-        """A linear image is shown as sRGB, clipped."""
-        pixels = np.float32([[[0.21586, 2, -1]]])
-        np.testing.assert_array_equal(Image.picture(Image(pixels, encoding="linear")), [[[128, 255, 0]]])
+    def test_in_a_notebook(self):
+        """It shows itself as a PNG, small enough for a page."""
+        shown = Image(smooth(2000, 30))._repr_png_()
+        with Pillow.open(io.BytesIO(shown)) as opened:
+            assert (opened.format, opened.size) == ("PNG", (15, 1000))
+
+    def test_save(self, tmp_path):
+        """As `-o` would write it; another suffix is refused with a reason."""
+        image = Image(smooth(), file=FileFormat(bits=8))
+        image.save(tmp_path / "a.png")
+        np.testing.assert_allclose(read_image(tmp_path / "a.png").pixels, image.pixels, atol=0.002)
+        with pytest.raises(UnwritableFile):
+            image.save(tmp_path / "a.txt")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphface.report.blobs import Blobs
-from graphface.report.compare.embed import inert, layer, message, page
+from graphface.report.compare.embed import inert, layer, message, page, texts
 from graphface.values.picture import Picture
 
 
@@ -41,6 +41,6 @@ def test_layer() -> None:
     pixels = np.zeros((2, 3, 3), np.uint8)
     made = layer(blobs.sheet("", "Grid", Picture(pixels, "note", np.ones((2, 3)), full=(20, 30))), "A")
     assert (made["label"], made["note"], made["width"], made["full"]) == ("A", "note", 3, [20, 30])
-    assert blobs.texts[made["data"]["blob"]]
+    assert [len(texts(blobs)[index]) > 0 for index in made["data"]["planes"]] == [True]
     assert "data" not in layer(blobs.sheet("", "Grid", Picture(pixels)), "B")
     assert message("C", "why")["message"] == "why"
