@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from graphface import DocumentError, Evaluator, Registry, load
+from graphface import DocumentError, Evaluator, MemoryTier, Registry, UsageError, load
 from graphface.facade import shared_evaluator
 
 TEXT = "graphface: 1\nname: sums\ninputs: {x: {type: float, default: 2}}\nnodes: {a: {use: toy.add, in: {a: x}}}\n"
@@ -38,3 +38,26 @@ class TestGraph:
         """What `run` asks of the shared evaluator can be asked of any."""
         loaded = load(TEXT, registry=registry)
         assert Evaluator().run(loaded.request({"x": 4.0}, ["a"]))["a"] == 4
+
+    def test_shows_itself(self, registry: Registry, tmp_path: Path) -> None:
+        """In a notebook as a drawing, which `draw` writes to a file."""
+        loaded = load(TEXT, registry=registry)
+        assert 'data-node="a"' in loaded._repr_html_()
+        loaded.draw(tmp_path / "g.html")
+        assert 'data-node="a"' in (tmp_path / "g.html").read_text()
+
+
+class TestResult:
+    def test_report(self, registry: Registry, tmp_path: Path) -> None:
+        """A result writes its run as a page, also for nodes whose values only the evaluator has."""
+        from graphface.report.page.read import read_report
+
+        evaluator = Evaluator(memory=MemoryTier())
+        result = load(TEXT, registry=registry).run(["a"], evaluator=evaluator)
+        result.report(tmp_path / "run.html", size=64)
+        assert [entry["name"] for entry in read_report(tmp_path / "run.html")["nodes"]] == ["x", "a"]
+
+    def test_report_refused(self, registry: Registry, tmp_path: Path) -> None:
+        """A page has the suffix of one."""
+        with pytest.raises(UsageError, match=r"name it \.html"):
+            load(TEXT, registry=registry).run(["a"]).report(tmp_path / "run.png")

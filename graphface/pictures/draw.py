@@ -11,7 +11,7 @@ import numpy as np
 from graphface.pictures.arrays import draw_array
 from graphface.pictures.card import draw_text
 from graphface.pictures.grid import MOST, Cell, draw_grid
-from graphface.pictures.plots import MOST_BARS, draw_bars
+from graphface.pictures.plots import draw_numbers
 from graphface.registry import Registry
 from graphface.values.frozen import describe
 from graphface.values.parts import Named, rule_of
@@ -62,8 +62,9 @@ def _by_engine(value: Any, declared: PortType, registry: Registry, view: View, d
     if not parts:
         return draw_text(f"empty {type(value).__name__}", view)
     named = not isinstance(value, list | tuple)
-    if all(_is_number(part) for _, part in parts) and len(parts) <= MOST_BARS and (len(parts) > 3 or not named):
-        return draw_bars([float(part) for _, part in parts], view, [str(label) for label, _ in parts] if named else ())
+    if all(_is_number(part) for _, part in parts) and (len(parts) > 3 or not named):
+        labels = [str(label) for label, _ in parts] if named else ()
+        return draw_numbers([float(part) for _, part in parts], view, labels)
     types = _types(value, declared, rule)
     view = replace(view, above=_within([part for _, part in parts], view.above))
 

@@ -37,10 +37,10 @@ def draw_grid(cells: Sequence[Cell], view: View, *, columns: int | None = None) 
     columns = min(columns or math.ceil(math.sqrt(len(cells))), widest)
     count = -(-len(cells) // columns)
     letters = max(7, min(14, size // columns // 10))
-    side = max(8, min(size // columns, size // count - letters * 3 // 2 - 2) - 2)
+    caption = letters * 3 // 2
+    side = max(8, min(size // columns, (size - caption * bool(left_out)) // count - caption - 2) - 2)
     drawn = [(label, _fitted(draw(replace(view, size=side)), side)) for label, draw in cells]
     rows = [drawn[start : start + columns] for start in range(0, len(drawn), columns)]
-    caption = letters * 3 // 2
     heights = [caption + max(tile.shape[0] for _, tile in row) + 2 for row in rows]
     width = columns * (side + 2)
     sheet = Image.new("RGB", (width, sum(heights) + caption * bool(left_out)), PAPER)

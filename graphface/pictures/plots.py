@@ -16,16 +16,19 @@ from graphface.values.picture import Picture, View
 if TYPE_CHECKING:
     from PIL.ImageDraw import ImageDraw
 
-MOST_BARS = 40
+_ROW = 11
+"""Pixels of a bar's row, at the least."""
 _CURVES = ((52, 101, 164), (204, 80, 40), (78, 154, 6), (117, 80, 123))
 
 
-def draw_bars(values: Sequence[float], view: View, labels: Sequence[str] = ()) -> Picture:
-    """Up to `MOST_BARS` numbers as bars from 0, each with its value, and its label or place in the row."""
+def draw_numbers(values: Sequence[float], view: View, labels: Sequence[str] = ()) -> Picture:
+    """A few numbers as bars from 0, each with its value, and its label or place in the row; many as a curve."""
     from PIL import Image, ImageDraw
 
     side = max(64, min(view.size or SIZE, 2 * SIZE))
-    row = max(11, min(side // 12, (side - 8) // max(1, len(values))))
+    if len(values) * _ROW + 8 > side:
+        return draw_curve(np.array(values), view)
+    row = min(side // 12, (side - 8) // max(1, len(values))) if side >= 12 * _ROW else _ROW
     wide = max(64, side)
     card = Image.new("RGB", (wide, row * len(values) + 8), PAPER)
     pen = ImageDraw.Draw(card)

@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 from graphface.cache.memory import MISSING
 from graphface.graph.request import Request
 from graphface.graph.structure import Ref
@@ -88,6 +90,8 @@ def _values(value: Any, declared: PortType, kind: Atom) -> Iterator[Any]:
 def _may_be(declared: Atom, kind: Atom) -> bool:
     if isinstance(kind, ArrayType):
         return isinstance(declared, ArrayType) and declared.is_a(kind)
+    if isinstance(kind, type) and isinstance(declared, ArrayType):
+        return issubclass(np.ndarray, kind)
     if isinstance(kind, type) and isinstance(declared, type):
         return declared is object or issubclass(declared, kind) or issubclass(kind, declared)
     return declared is kind

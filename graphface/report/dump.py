@@ -20,7 +20,7 @@ import numpy as np
 
 from graphface.errors import UnreadableFile, UnwritableFile, UsageError
 from graphface.evaluate.evaluator import Evaluator
-from graphface.fallback import warn
+from graphface.fallback import python_warnings, warn
 from graphface.graph.request import Request
 from graphface.graph.structure import Ref, Step
 from graphface.pictures import draw
@@ -150,7 +150,8 @@ class Dump(Watcher):
         except UnwritableFile as error:
             if not isinstance(error.__context__, CodecError):
                 raise
-            warn(f"--dump: {name} has its picture only: {error.__context__}")
+            with python_warnings():  # it is no node's fault
+                warn(f"--dump: {name} has its picture only: {error.__context__}")
 
 
 def value_path(folder: Path, name: str, suffix: str = ".npz") -> Path:

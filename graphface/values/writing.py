@@ -114,7 +114,7 @@ def _own_suffixes(declared: PortType, files_of: FilesOf) -> list[str] | None:
     for atom in declared.alternatives:
         files = files_of(atom)
         suffixes = files.suffixes if files is not None and files.write is not None else None
-        if suffixes == ():
+        if atom is object or suffixes == ():
             return None
         known += suffixes or ()
         known += [".npy"] if _is_array(atom) else []

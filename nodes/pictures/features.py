@@ -9,7 +9,7 @@ import numpy as np
 from graphface.nodes.pictures.mosaic import mosaic, tile_view
 from graphface.pictures.card import draw_text
 from graphface.pictures.colors import grey_of, with_odd
-from graphface.pictures.plots import MOST_BARS, draw_bars
+from graphface.pictures.plots import draw_numbers
 from graphface.values.picture import Picture, View
 
 _MOST = 25
@@ -35,10 +35,10 @@ def draw_pixel_features(features: Any, view: View) -> Picture:
 
 def draw_weights(weights: Any, view: View) -> Picture:
     """The root mean square of every layer."""
-    layers = dict(list(weights.arrays.items())[:MOST_BARS])
+    layers = weights.arrays
     if not layers:
         return draw_text("no weights", view)
     sizes = [float(np.linalg.norm(values)) / max(1, values.size) ** 0.5 for values in layers.values()]
-    total = sum(values.size for values in weights.arrays.values())
-    drawn = draw_bars(sizes, view, list(layers))
-    return Picture(drawn.pixels, f"root mean square of each layer; {total} weights in {len(weights.arrays)} layers")
+    total = sum(values.size for values in layers.values())
+    drawn = draw_numbers(sizes, view, list(layers))
+    return Picture(drawn.pixels, f"root mean square of each layer; {total} weights in {len(layers)} layers")

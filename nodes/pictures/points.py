@@ -119,7 +119,7 @@ def draw_visibility(visibility: Visibility, view: View) -> Picture:
     share = np.clip(np.nan_to_num(visibility), 0, 1)
     places = frame.places(points)
     for index in np.argsort(mesh.vertices[:, 2]):
-        color = (230 * (1 - share[index]) + 20, 210 * share[index] + 30, 60)
+        color = (250 - 230 * float(share[index]), 30 + 210 * float(share[index]), 60)
         frame.dot(places[index], color, frame.unit * 0.8)
     return Picture(frame.pixels, f"green: seen, red: not; {(visibility > 0.5).mean():.0%} of the vertices are seen")
 

@@ -20,6 +20,9 @@ class Note(Follower):
     def write(self) -> None:
         self.said.append(f"write {self.name}")
 
+    def stopped(self, error: BaseException) -> None:
+        self.said.append(f"stopped {self.name} {type(error).__name__}")
+
 
 class TestWritten:
     def test_order(self) -> None:
@@ -30,11 +33,11 @@ class TestWritten:
         assert said == ["check a", "check b", "run", "write a", "write b"]
 
     def test_failed_run(self) -> None:
-        """A run that fails is written too."""
+        """A run that fails is written too, when it is known why."""
         said: list[str] = []
         with pytest.raises(KeyboardInterrupt), written([Note(said, "a")]):
             raise KeyboardInterrupt
-        assert said[-1] == "write a"
+        assert said[-2:] == ["stopped a KeyboardInterrupt", "write a"]
 
     def test_refused(self) -> None:
         """Where one cannot be written, nothing runs and nothing is written."""

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 Run = Callable[..., object]
 
@@ -239,3 +240,63 @@ class TestSizes:
         said = run("-o", tmp_path / "a.npy", "--memory", "1G")
         assert said.code == 2
         assert "--map" in said.err
+
+
+class TestReport:
+    def test_beside_a_trace(self, run: Run, tmp_path: Path) -> None:
+        """`--report` and `--trace` tell of the same run."""
+        import json
+
+        from graphface.report.page.read import read_report
+
+        page, trace = tmp_path / "run.html", tmp_path / "run.json"
+        said = run("-o", f"{tmp_path}/s.npy", "--report", page, "--report-size", 64, "--trace", trace)
+        assert said.code == 0
+        assert [n["key"] for n in read_report(page)["nodes"]] == [
+            n["key"] for n in json.loads(trace.read_text())["nodes"]
+        ]
+
+    def test_failed_run(self, run: Run, tmp_path: Path) -> None:
+        """A run that fails writes its report, with the failure and where it is."""
+        page = tmp_path / "run.html"
+        assert run("-o", f"bad={tmp_path}/s.npz", "--report", page).code == 1
+        assert "raise ValueError(message)" in page.read_text(encoding="utf-8")
+
+    def test_refused(self, run: Run, tmp_path: Path) -> None:
+        """A report under another suffix, or of a --map, is refused before anything runs."""
+        other = run("-o", f"{tmp_path}/s.npy", "--report", tmp_path / "run.txt")
+        mapped = run("-o", f"{tmp_path}/{{x}}.npy", "--map", f"x={tmp_path}", "--report", tmp_path / "run.html")
+        assert (other.code, mapped.code) == (2, 2)
+        assert "name it .html" in other.err
+        assert "follows one run" in mapped.err
+        assert not list(tmp_path.glob("*.npy"))
+
+
+class TestPictures:
+    def test_any_node(self, run: Run, tmp_path: Path) -> None:
+        """A value whose type writes no picture is drawn."""
+        assert run("-o", f"g={tmp_path / 'g.png'}").code == 0
+        with Image.open(tmp_path / "g.png") as opened:
+            assert opened.size == (4, 4)
+
+    def test_number(self, run: Run, tmp_path: Path) -> None:
+        """Numbers are pictures too."""
+        assert run("-o", f"unused={tmp_path / 'n.webp'}").code == 0
+        assert (tmp_path / "n.webp").stat().st_size
+
+    def test_other_suffix(self, run: Run, tmp_path: Path) -> None:
+        """Another suffix is refused before anything runs, and pictures are named among what can be written."""
+        said = run("-o", f"g={tmp_path / 'g.bmp'}")
+        assert said.code == 2
+        assert "as its picture: .png" in said.err
+
+
+class TestDump:
+    def test_folder(self, run: Run, tmp_path: Path) -> None:
+        """Every value of the run beside the outputs."""
+        assert run("-o", f"scaled={tmp_path / 's.npy'}", "--dump", tmp_path / "d").code == 0
+        assert {"g.npz", "g.png", "run.json"} <= {p.name for p in (tmp_path / "d").iterdir()}
+
+    def test_with_map(self, run: Run, tmp_path: Path) -> None:
+        """One run has a dump, many have none."""
+        assert run("-o", tmp_path / "a.npy", "--map", f"x={tmp_path}", "--dump", tmp_path / "d").code == 2

@@ -27,19 +27,23 @@ def test_no_numbers() -> None:
     found = figures(np.array([[np.nan, 1, 2], [np.inf, 3, -np.inf]]))
     assert found is not None
     assert (found.low, found.high, found.mean, found.nan, found.infinite) == (1, 3, 2, 1, 2)
-    assert sum(found.counts) == 3 and found.counted
+    assert sum(found.counts) == 3
+    assert found.counted
 
 
 def test_nothing_finite() -> None:
     """Without a finite value there is no range."""
     found = figures(np.full((2, 2), np.nan, np.float32))
-    assert found is not None and not found.counted and found.counts == ()
+    assert found is not None
+    assert not found.counted
+    assert found.counts == ()
 
 
 def test_one_value() -> None:
     """One value has no histogram."""
     found = figures(np.full((4, 4), 7))
-    assert found is not None and (found.low, found.high, found.counts) == (7, 7, ())
+    assert found is not None
+    assert (found.low, found.high, found.counts) == (7, 7, ())
 
 
 @pytest.mark.parametrize("data", [np.zeros((0, 3)), np.array(["a"]), np.zeros(3, complex)])

@@ -16,7 +16,8 @@ def test_equal_ones_are_one() -> None:
     again = blobs.sheet("pixels", "Image", Picture(PIXELS.copy(), data=data.copy()))
     red = blobs.sheet("red", "Mask", Picture(PIXELS[::-1].copy(), data=data[..., 0]))
     assert (again.image, again.planes) == (whole.image, whole.planes)
-    assert red.planes == whole.planes[:1] and red.image != whole.image
+    assert red.planes == whole.planes[:1]
+    assert red.image != whole.image
     assert len(blobs.contents) == 1 + 3 + 1
 
 
@@ -30,4 +31,6 @@ def test_full() -> None:
 def test_diagram() -> None:
     """A picture without data has none."""
     sheet = Blobs().sheet("", "float", Picture(PIXELS, "a note"))
-    assert sheet.packed is None and sheet.planes == () and sheet.note == "a note"
+    assert sheet.packed is None
+    assert sheet.planes == ()
+    assert sheet.note == "a note"

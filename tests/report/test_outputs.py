@@ -15,4 +15,5 @@ def test_outputs() -> None:
     """Each output has its picture and its name."""
     html = load(TEXT, registry=toy_registry()).run()._repr_html_()
     assert html.count("<img") == html.count("data:image/webp;base64,") == 2
-    assert "<b>picture</b>" in html and "<b>average</b>" in html
+    assert "<b>picture</b>" in html
+    assert "<b>average</b>" in html

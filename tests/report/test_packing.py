@@ -51,7 +51,9 @@ def test_no_numbers(data: NDArray[np.float64]) -> None:
 def test_whole_numbers(data: NDArray[Any]) -> None:
     """Booleans and integers within 16 bits of range are exact."""
     packed = pack(data)
-    assert packed is not None and packed.exact and packed.whole
+    assert packed is not None
+    assert packed.exact
+    assert packed.whole
     np.testing.assert_array_equal(unpack(packed), data.reshape(packed.height, packed.width, packed.channels))
 
 
@@ -66,7 +68,8 @@ def test_whole_numbers(data: NDArray[Any]) -> None:
 def test_large_whole_numbers(data: NDArray[Any]) -> None:
     """What 16 bits or a float64 cannot hold is read as nearly as they can, and does not claim to be exact."""
     packed = pack(data)
-    assert packed is not None and not packed.exact
+    assert packed is not None
+    assert not packed.exact
     np.testing.assert_allclose(unpack(packed)[..., 0], data.astype(np.float64), rtol=1e-4)
 
 
@@ -74,7 +77,9 @@ def test_pictures_are_exact() -> None:
     """Steps of 1/255, as of an 8-bit photograph, take one byte and are exact."""
     data = (np.arange(256, dtype=np.uint8).reshape(16, 16, 1).repeat(3, 2) / np.float32(255)).astype(np.float32)
     packed = pack(data)
-    assert packed is not None and packed.bits == 8 and packed.exact
+    assert packed is not None
+    assert packed.bits == 8
+    assert packed.exact
     np.testing.assert_array_equal(unpack(packed).astype(np.float32), data)
 
 
@@ -95,4 +100,5 @@ def test_smooth_is_small() -> None:
     """A smooth map takes a fraction of its 16 bits a pixel."""
     y, x = np.mgrid[:128, :128]
     packed = pack(np.sin(x / 40) * np.cos(y / 50))
-    assert packed is not None and len(packed.planes[0]) < 0.6 * 2 * 128 * 128
+    assert packed is not None
+    assert len(packed.planes[0]) < 0.6 * 2 * 128 * 128

@@ -27,9 +27,7 @@ nodes:
 """
 
 
-def seen_in(
-    outputs: list[str], evaluator: Evaluator | None = None, size: int = 16
-) -> tuple[Recorder, dict[str, Seen]]:
+def seen_in(outputs: list[str], evaluator: Evaluator | None = None, size: int = 16) -> tuple[Recorder, dict[str, Seen]]:
     """What a recorder saw of a run, failed or not."""
     graph = load(TEXT, registry=toy_registry())
     evaluator = evaluator or Evaluator()
@@ -46,7 +44,8 @@ def test_sheets() -> None:
     _, seen = seen_in(["mean"])
     assert [sheet.label for sheet in seen["grid"].sheets] == [""]
     assert [sheet.label for sheet in seen["pair"].sheets] == ["", "low"]
-    assert seen["grid"].sheets[0].full == (40, 40) and seen["grid"].sheets[0].width == 16
+    assert seen["grid"].sheets[0].full == (40, 40)
+    assert seen["grid"].sheets[0].width == 16
     assert [path for path, _ in seen["pair"].arrays] == ["low", "high"]
 
 
@@ -54,8 +53,10 @@ def test_times() -> None:
     """What ran has its start and thread; starts follow the wires."""
     recorder, seen = seen_in(["mean"])
     starts = [seen[name].start for name in ("grid", "pair", "twice", "mean")]
-    assert None not in starts and starts == sorted(starts)
-    assert seen["mean"].thread and recorder.seconds > 0
+    assert None not in starts
+    assert starts == sorted(starts)
+    assert seen["mean"].thread
+    assert recorder.seconds > 0
 
 
 def test_keeps_no_value() -> None:
@@ -73,7 +74,8 @@ def test_keeps_no_value() -> None:
     spy = Spy(evaluator.find, 16)
     evaluator.run(graph.request({}, ["mean"]), [spy])
     gc.collect()
-    assert len(held) == 2 and all(ref() is None for ref in held)
+    assert len(held) == 2
+    assert all(ref() is None for ref in held)
 
 
 @pytest.mark.parametrize("tier", ["memory", "disk"])
@@ -83,22 +85,27 @@ def test_memoized_away(tier: str, tmp_path: Path) -> None:
     evaluator = Evaluator(memory=MemoryTier() if tier == "memory" else None, disk=disk)
     seen_in(["twice"], evaluator)
     _, seen = seen_in(["twice"], evaluator)
-    assert seen["twice"].record is not None and seen["twice"].record.state == tier
-    assert seen["grid"].record is None and seen["grid"].sheets
+    assert seen["twice"].record is not None
+    assert seen["twice"].record.state == tier
+    assert seen["grid"].record is None
+    assert seen["grid"].sheets
     assert seen["grid"].reason == "only twice needs it, and that is memoized"
 
 
 def test_gone() -> None:
     """What is in no tier has no picture, and a reason."""
     _, seen = seen_in(["grid"])
-    assert not seen["twice"].sheets and seen["twice"].reason == "not needed for grid"
+    assert not seen["twice"].sheets
+    assert seen["twice"].reason == "not needed for grid"
 
 
 def test_failed() -> None:
     """A failed run is recorded up to the failure; its inputs are there."""
     recorder, seen = seen_in(["bad"])
-    assert seen["bad"].record is not None and seen["bad"].record.state == "failed"
-    assert seen["warned"].sheets and "bad" in recorder.errors
+    assert seen["bad"].record is not None
+    assert seen["bad"].record.state == "failed"
+    assert seen["warned"].sheets
+    assert "bad" in recorder.errors
     assert recorder.stopped_by is None
 
 
@@ -106,7 +113,9 @@ def test_interrupted() -> None:
     """A run that was interrupted knows by what, and which node was at work."""
     recorder, seen = seen_in(["cut"])
     assert isinstance(recorder.stopped_by, KeyboardInterrupt)
-    assert seen["cut"].record is None and recorder.began("cut") and not recorder.began("bad")
+    assert seen["cut"].record is None
+    assert recorder.began("cut")
+    assert not recorder.began("bad")
 
 
 def test_afterwards() -> None:

@@ -9,7 +9,15 @@ import pytest
 from graphface.errors import RefusedOutput, UnwritableFile
 from graphface.values.files import Files
 from graphface.values.port_types import ANY, ArrayType, PortType
-from graphface.values.writing import beside, check_folder, check_output, make_folder, write_output
+from graphface.values.writing import (
+    beside,
+    check_folder,
+    check_output,
+    is_drawn,
+    make_folder,
+    may_be_drawn,
+    write_output,
+)
 
 
 @dataclass(frozen=True)
@@ -101,6 +109,7 @@ class TestCheckOutput:
             (PortType((DRAWN,)), "a.PNG"),
             (PortType((DRAWN,)), "a.npy"),
             (PortType((Two,)), "a.npz"),
+            (PortType((Two,)), "a.png"),
             (PortType((np.ndarray,)), "a.npy"),
             (PortType((Stubborn,)), "a.anything"),
             (PortType((DRAWN, Stubborn)), "a.anything"),
@@ -116,15 +125,34 @@ class TestCheckOutput:
         [
             (PortType((DRAWN,)), "a.gif"),
             (PortType((DRAWN,)), "a"),
-            (PortType((Two,)), "a.png"),
             (PortType((Two,)), "a.npy"),
             (PortType((float,), optional=True), "a.txt"),
         ],
     )
     def test_refused(self, tmp_path: Path, declared: PortType, name: str) -> None:
         """A suffix that none knows is refused, and those known are named."""
-        with pytest.raises(RefusedOutput, match=r"\.npz$"):
+        with pytest.raises(RefusedOutput, match=r"\.npz"):
             check_output(tmp_path / name, declared, FILES.get)
+
+
+class TestDrawn:
+    @pytest.mark.parametrize(
+        ("value", "declared", "name", "drawn"),
+        [
+            (Two(np.zeros(1), np.zeros(1)), PortType((Two,)), "a.png", True),
+            (Two(np.zeros(1), np.zeros(1)), PortType((Two,)), "a.npz", False),
+            (np.zeros((2, 2)), PortType((DRAWN,)), "a.PNG", False),
+            (np.zeros((2, 2)), PortType((DRAWN,)), "a.webp", True),
+            (Stubborn(), PortType((Stubborn,)), "a.png", False),
+            (Stubborn(), ANY, "a.png", False),
+            (2.5, ANY, "a.png", True),
+            (None, PortType((DRAWN,), optional=True), "a.png", True),
+        ],
+    )
+    def test_where_no_writer_is(self, value: object, declared: PortType, name: str, drawn: bool) -> None:
+        """A picture's suffix that the type's own writer does not know; that is foreseen before anything runs."""
+        assert is_drawn(value, declared, Path(name), FILES.get) == drawn
+        assert may_be_drawn(Path(name), declared, FILES.get) >= drawn
 
 
 class TestMakeFolder:

@@ -75,7 +75,7 @@ class _Sweep:
         total = 0
         for joints in self._joints:
             ends = sorted((place[j.source] + j.leaves, place[j.target] + j.enters) for j in joints)
-            total += _inversions([end for _, end in ends])
+            total += inversions([end for _, end in ends])
         return total
 
     def _number(self, column: Sequence[int]) -> None:
@@ -83,7 +83,7 @@ class _Sweep:
             self._place[item] = place
 
 
-def _inversions(values: Sequence[float]) -> int:
+def inversions(values: Sequence[float]) -> int:
     """How many pairs stand in falling order."""
     seen: list[float] = []
     found = 0

@@ -43,7 +43,8 @@ class Pen:
         sides = (rect.x * s, rect.y * s, rect.right * s, rect.bottom * s)
         left, right, top, bottom = (side in round_at for side in "lrtb")
         corners = left and top, right and top, right and bottom, left and bottom
-        self._draw.rounded_rectangle(sides, radius * s, fill, edge, max(1, round(thick * s)), corners=corners)
+        bend = max(0.0, min(radius * s, (sides[2] - sides[0]) / 2 - 1, (sides[3] - sides[1]) / 2 - 1))
+        self._draw.rounded_rectangle(sides, bend, fill, edge, max(1, round(thick * s)), corners=corners)
 
     def dot(self, x: float, y: float, fill: str, edge: str) -> None:
         s = self.scale
@@ -93,7 +94,7 @@ class Pen:
         self.picture.paste(small, (round(left), round(rect.y * self.scale)))
 
 
-def _points(lanes: Sequence[Lane], steps: int = 14) -> list[Point]:
+def _points(lanes: Sequence[Lane], steps: int = 24) -> list[Point]:
     """A wire's curve as a line of points."""
     start, parts = curved(lanes)
     points: list[Point] = [start]

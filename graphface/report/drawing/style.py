@@ -16,14 +16,14 @@ D .output {{ font-weight: 600; }}
 D .out {{ text-anchor: end; }}
 D .wire {{ fill: none; stroke-width: 1.4; }}
 D .wire.lazy {{ stroke-dasharray: 5 3; }}
-D .dimmed .box {{ stroke-dasharray: 4 3; }}
+D .dimmed .edge {{ stroke-dasharray: 4 3; }}
 D .dimmed .name, D .dimmed .operator, D .dimmed .port, D .dimmed .band, D .dimmed .stripe, D .dimmed .dot,
 D .dimmed .output {{ opacity: .45; }}
 D .wire.dimmed {{ opacity: .35; }}
-D .result .box {{ stroke-width: 2; }}
-D .failed .box {{ stroke-width: 3; }}
+D .result .edge {{ stroke-width: 2; }}
+D .failed .edge {{ stroke-width: 3; }}
 D .node:focus {{ outline: none; }}
-D .node:focus .box, D .node:hover .box {{ stroke-width: 2.5; }}
+D .node:focus .edge, D .node:hover .edge {{ stroke-width: 2.5; }}
 D .wire:hover {{ stroke-width: 3; }}
 D .frame:not(.folded) .count {{ display: none; }}
 """
@@ -47,7 +47,8 @@ def _colors(theme: Theme, hues: Iterable[int]) -> str:
     families = "".join((*stripes, *bands))
     return f"""
 D .paper {{ fill: {c.paper}; }}
-D .box {{ fill: {c.box}; stroke: {c.edge}; }}
+D .box {{ fill: {c.box}; }}
+D .edge {{ fill: none; stroke: {c.edge}; }}
 D .node text, D .frame text {{ fill: {c.ink}; }}
 D .node .operator, D .node .port, D .node .reason, D .frame .count {{ fill: {c.muted}; }}
 D .frame rect {{ fill: {c.frame}; stroke: {c.frame_edge}; }}
@@ -57,9 +58,9 @@ D .dot {{ fill: {c.wire}; stroke: {c.box}; }}
 D .dot.free {{ fill: {c.box}; stroke: {c.wire}; }}
 D .input .box, D .input .band {{ fill: {c.given}; }}
 D .input .stripe {{ fill: {c.muted}; }}
-D .result .box, D .node:focus .box, D .node:hover .box, D .wire:hover {{ stroke: {c.accent}; }}
+D .result .edge, D .node:focus .edge, D .node:hover .edge, D .wire:hover {{ stroke: {c.accent}; }}
 D .node .output {{ fill: {c.accent}; }}
-D .failed .box {{ stroke: {c.failed}; }}
+D .failed .edge {{ stroke: {c.failed}; }}
 D .node.failed .reason {{ fill: {c.failed}; }}
 D .cold {{ fill: {c.edge}; }}
 {families}"""

@@ -116,6 +116,7 @@ def _node(node: Node, rect: Rect) -> Iterator[str]:
         f'<rect class="box" width="{width:g}" height="{height:g}" rx="6"/>'
         f'<path class="band" d="M0 6a6 6 0 0 1 6 -6H{width - 6:g}a6 6 0 0 1 6 6V36H0Z"/>'
         f'<path class="stripe" d="M6 0A6 6 0 0 0 0 6V{height - 6:g}A6 6 0 0 0 4 {height - 0.35:g}V0.35Z"/>'
+        f'<rect class="edge" width="{width:g}" height="{height:g}" rx="6"/>'
     )
     yield _text("name", INSET, 17, node.title, width - 2 * INSET, TITLE_SIZE, bold=True)
     yield _text("operator", INSET, 31, node.operator, width - 2 * INSET, TEXT_SIZE)

@@ -208,7 +208,8 @@ def test_zoom(open_page: Any, finished: Path) -> None:
         zooms.append(int(_readout(page).split(" %")[0].rsplit(" ", 1)[1]))
         page.mouse.move(*_place(page, 40, 20))
     fitted = zooms[-1]
-    assert fitted < zooms[0] < zooms[1] < zooms[2] and zooms[3] == 100
+    assert fitted < zooms[0] < zooms[1] < zooms[2]
+    assert zooms[3] == 100
 
 
 def test_wide_and_narrow(open_page: Any, finished: Path) -> None:
@@ -217,7 +218,9 @@ def test_wide_and_narrow(open_page: Any, finished: Path) -> None:
     for width in (800, 1280, 1920):
         page.set_viewport_size({"width": width, "height": 900})
         assert page.evaluate("document.documentElement.scrollWidth") <= width
-        assert page.evaluate("document.querySelector('#panel').scrollWidth <= document.querySelector('#panel').clientWidth")
+        assert page.evaluate(
+            "document.querySelector('#panel').scrollWidth <= document.querySelector('#panel').clientWidth"
+        )
 
 
 def test_search(open_page: Any, finished: Path) -> None:
@@ -251,7 +254,8 @@ def test_links(open_page: Any, finished: Path) -> None:
     page = open_page(finished, "#low")
     assert _chosen(page) == "low"
     page.click("#panel .source >> text=pair.low")
-    assert _chosen(page) == "pair" and page.url.endswith("#pair")
+    assert _chosen(page) == "pair"
+    assert page.url.endswith("#pair")
     page.click('#panel [data-to="low"]')
     assert _chosen(page) == "low"
 

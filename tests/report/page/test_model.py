@@ -47,7 +47,8 @@ def test_top() -> None:
     said = modeled("low")
     assert (said["graph"], said["outputs"]) == ("modeled", [{"name": "low", "node": "low", "field": ""}])
     assert said["counts"] == {"ran": 3, "skipped": 6}
-    assert said["first"] == "low" and said["stopped"] == ""
+    assert said["first"] == "low"
+    assert said["stopped"] == ""
     assert "toy.scale" in said["yaml"]
 
 
@@ -57,7 +58,8 @@ def test_parameters() -> None:
     by = {one["name"]: one for one in nodes["low"]["parameters"]}["by"]
     assert (by["value"], by["set"], by["place"]) == ("3.0", True, "--set")
     size, fill, label = nodes["grid"]["parameters"]
-    assert size["set"] and size["place"].startswith("<text>:5:")
+    assert size["set"]
+    assert size["place"].startswith("<text>:5:")
     assert (fill["value"], fill["set"]) == ("1.0", False)
     assert not label["set"]
 
@@ -75,7 +77,8 @@ def test_failed() -> None:
     """The page opens on the node that failed; those below say by whom they are blocked."""
     said = modeled("below")
     bad = said["by_name"]["bad"]
-    assert said["first"] == "bad" and bad["state"] == "failed"
+    assert said["first"] == "bad"
+    assert bad["state"] == "failed"
     assert bad["error"]["reason"] == "ValueError: it broke"
     assert "raise ValueError" in bad["error"]["code"]
     assert said["by_name"]["below"]["reason"] == "blocked by bad"

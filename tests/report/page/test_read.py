@@ -24,7 +24,9 @@ def test_run(tmp_path: Path) -> None:
     assert run["nodes"][0]["value"] == "1.0"
 
 
-@pytest.mark.parametrize("content", [b"<p>no report</p>", b"\xff\xfe", b'<script type="application/json" id="run">{</script>'])
+@pytest.mark.parametrize(
+    "content", [b"<p>no report</p>", b"\xff\xfe", b'<script type="application/json" id="run">{</script>']
+)
 def test_no_report(tmp_path: Path, content: bytes) -> None:
     """Other files are refused, and so is one that is not there."""
     (tmp_path / "page.html").write_bytes(content)
