@@ -277,7 +277,7 @@ const GraphfaceCompare = (() => {
       const [a, b] = pane.layers, dim = text => make("span", {className: "gc-note"}, text || "");
       if (this.mode === "difference") {
         const [one, other] = this.pair.map(i => this.layers[i].label);
-        pane.title.replaceChildren(`${other} − ${one}`, dim(this.found && (this.found.why || (this.found.equal ? "equal at this size" : this.found.byData ? "" : "of the drawings"))));
+        pane.title.replaceChildren(`${other} − ${one}`, dim(this.found && (this.found.why || (this.found.equal ? "equal at this size" : this.found.byData ? "mid grey is no difference" : "of the drawings; mid grey is no difference"))));
       } else if (this.mode === "flicker") {
         const shown = this.flipped ? b : a;
         pane.title.replaceChildren(shown.label, dim(shown.note));
@@ -300,7 +300,7 @@ const GraphfaceCompare = (() => {
       if (this.found.why) { this.scaleText.textContent = ""; return; }
       paint(this.panes[0].canvas, this.found, this.gain);
       const reach = short(+(this.found.scale / this.gain).toPrecision(3));
-      this.scaleText.textContent = `grey is 0, black −${reach}, white +${reach}`;
+      this.scaleText.textContent = `black −${reach}, white +${reach}`;
     }
 
     start() {
