@@ -19,6 +19,7 @@ from graphface.node import Cosmetic, Figure, Formerly, Needs, node
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
     from graphface.cache.memory import MemoryTier
+    from graphface.debug.breakpoint import Breakpoint
     from graphface.document.typed_yaml import read_yaml, validated
     from graphface.errors import (
         DeclarationError,
@@ -33,13 +34,14 @@ if TYPE_CHECKING:
         UsageError,
     )
     from graphface.evaluate.evaluator import Evaluator
-    from graphface.evaluate.observe import Observer
+    from graphface.evaluate.observe import Observer, StopRun
     from graphface.facade import Graph, Result, load
     from graphface.fallback import GraphfaceWarning, warn
     from graphface.packs import Pack
     from graphface.registry import Registry
     from graphface.values.files import Files
     from graphface.values.parts import register_parts
+    from graphface.values.picture import Picture, View
     from graphface.values.port_types import ArrayType, Lazy
 
 __version__ = "0.1.0"
@@ -53,6 +55,7 @@ if not os.path.isdir(os.path.join(__path__[0], "nodes")) and os.path.isdir(os.pa
 _HOMES = {
     "ArrayType": "values.port_types",
     "Asset": "assets.asset",
+    "Breakpoint": "debug.breakpoint",
     "DeclarationError": "errors",
     "DocumentError": "errors",
     "Evaluator": "evaluate.evaluator",
@@ -66,13 +69,16 @@ _HOMES = {
     "NodeError": "errors",
     "Observer": "evaluate.observe",
     "Pack": "packs",
+    "Picture": "values.picture",
     "Registry": "registry",
     "Result": "facade",
     "RunError": "errors",
     "RunFailed": "errors",
+    "StopRun": "evaluate.observe",
     "UnreadableFile": "errors",
     "UnwritableFile": "errors",
     "UsageError": "errors",
+    "View": "values.picture",
     "load": "facade",
     "read_yaml": "document.typed_yaml",
     "register_parts": "values.parts",
@@ -83,6 +89,7 @@ _HOMES = {
 __all__ = [
     "ArrayType",
     "Asset",
+    "Breakpoint",
     "Cosmetic",
     "DeclarationError",
     "DocumentError",
@@ -100,13 +107,16 @@ __all__ = [
     "NodeError",
     "Observer",
     "Pack",
+    "Picture",
     "Registry",
     "Result",
     "RunError",
     "RunFailed",
+    "StopRun",
     "UnreadableFile",
     "UnwritableFile",
     "UsageError",
+    "View",
     "load",
     "node",
     "read_yaml",

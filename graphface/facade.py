@@ -118,9 +118,15 @@ class Graph(WiredGraph):
         done = evaluator.run(asked)
         return Result(done.outputs, done.records, asked, evaluator)
 
-    def request(self, inputs: Mapping[str, Any] | None = None, outputs: Iterable[str] | None = None) -> Request:
+    def request(
+        self,
+        inputs: Mapping[str, Any] | None = None,
+        outputs: Iterable[str] | None = None,
+        *,
+        pinned: Mapping[str, Any] | None = None,
+    ) -> Request:
         """What an evaluator runs, and what can be planned and explained; see `graphface.graph.request`."""
-        return request(self, inputs or {}, outputs)
+        return request(self, inputs or {}, outputs, pinned)
 
     def draw(self, path: str | Path) -> None:
         """Draw the graph into a file: .html (zooms and folds), .svg, .png, .mmd (Mermaid) or .dot (Graphviz).

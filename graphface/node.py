@@ -157,6 +157,10 @@ class Operator:
         """What the output is as a figure of merit; None where it is none, or does not say."""
         return next((m for m in getattr(self.output_annotation, "__metadata__", ()) if isinstance(m, Figure)), None)
 
+    def annotation(self, name: str) -> Any:
+        """The annotation of a port or parameter."""
+        return self._hints[name]
+
     @cached_property
     def parameters(self) -> type[BaseModel]:
         """The pydantic model of the keyword-only arguments; unknown names are refused."""

@@ -14,8 +14,9 @@ import os.path
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphface.code_line import line_of_import
@@ -126,7 +127,7 @@ def import_file(path: Path) -> ModuleType:
         PluginError: the file is missing, or fails to import.
     """
     name = f"graphface_plugin_{path.stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
+    spec = importlib.util.spec_from_file_location(name, path, loader=_FromSource(name, str(path)))
     if spec is None or spec.loader is None or not os.path.isfile(path):
         raise PluginError(f"{path}: no such plug-in file", path=path)
     module = importlib.util.module_from_spec(spec)
@@ -137,6 +138,14 @@ def import_file(path: Path) -> ModuleType:
         del sys.modules[name]
         raise PluginError(f"{path}: {import_failure(error)}", path=path) from error
     return module
+
+
+class _FromSource(SourceFileLoader):
+    """Compiles the file as it is now: a stored compilation counts as current for a second after an edit."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        path = self.get_filename(fullname)
+        return self.source_to_code(self.get_data(path), path)
 
 
 def _as_pack(named: object) -> Pack:

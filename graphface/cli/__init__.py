@@ -17,7 +17,8 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from graphface.cli import ablate, assets, cache, diff, draw, explain, new, nodes, plan, run, schema, show
+from graphface.cli import ablate, assets, cache, diff, draw, explain, new, nodes, plan, replay, run, schema, show
+from graphface.cli.messages import message
 from graphface.packs import load_entry_point
 
 ENTRY_POINTS = "graphface.commands"
@@ -41,6 +42,7 @@ def build() -> TyperGroup:
     app.command("ablate")(ablate.ablate)
     app.command("show")(show.show)
     app.command("draw")(draw.draw)
+    app.command("replay")(replay.replay)
     app.command("nodes")(nodes.nodes)
     app.command("new")(new.new)
     app.command("schema")(schema.schema)
@@ -92,7 +94,7 @@ def _guarded(arguments: list[str] | None) -> int:
         if result == _INTERRUPTED:  # some versions of typer turn the interrupt into this exit code
             raise KeyboardInterrupt
     except GraphfaceError as error:
-        _say(_message(error))
+        _say(message(error))
         return 2 if isinstance(error, UsageError) else 1
     except (KeyboardInterrupt, typer.Abort):
         _say("interrupted; what was computed is kept where a cache is in use")
@@ -107,22 +109,6 @@ def _guarded(arguments: list[str] | None) -> int:
         _say(f"internal error: {type(error).__name__}: {error} (GRAPHFACE_TRACEBACK=1 shows where)")
         return 1
     return result if isinstance(result, int) else 0
-
-
-def _message(error: Exception) -> str:
-    """What to tell the user: a failure that the node itself explained needs no array shapes beside it."""
-    from graphface.errors import GraphfaceError, RunFailed
-
-    if not isinstance(error, RunFailed):
-        return str(error)
-    told = []
-    for failure in error.failures[:5]:
-        explained = isinstance(failure.__cause__, GraphfaceError)
-        files = f"{', '.join(failure.files)}: " if failure.files else ""
-        told.append(f"{files}node {failure.node!r}: {failure.reason}" if explained else str(failure))
-    if len(error.failures) > 5:
-        told.append(f"and {len(error.failures) - 5} more")
-    return "\n".join(told)
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from graphface.cli.options import (
     CacheSize,
     GraphName,
     Inputs,
+    Pins,
     Plugins,
     Profiles,
     Replaces,
@@ -21,6 +22,7 @@ from graphface.cli.options import (
     load_graph,
     open_cache,
     read_inputs,
+    read_pins,
 )
 
 
@@ -33,6 +35,7 @@ def explain(
     variants: Variants = [],  # noqa: B006
     profiles: Profiles = [],  # noqa: B006
     plugins: Plugins = [],  # noqa: B006
+    pins: Pins = [],  # noqa: B006
     cache: Cache = None,
     cache_size: CacheSize = None,
     run: Annotated[bool, typer.Option("--run", help="Run it too, and show milliseconds and bytes.")] = False,
@@ -47,7 +50,9 @@ def explain(
     from graphface.report.terminal import print_explained
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
-    asked = loaded.request(read_inputs(inputs), [text.partition("=")[0] for text in output] or None)
+    asked = loaded.request(
+        read_inputs(inputs), [text.partition("=")[0] for text in output] or None, pinned=read_pins(pins)
+    )
     said: list[str] = []
     disk = open_cache(cache, said, cache_size)
     history = History.beside(cache)

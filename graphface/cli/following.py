@@ -7,9 +7,6 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from graphface.evaluate.observe import Observer
-from graphface.report.dump import Dump
-from graphface.report.page.html import check_report, write_report
-from graphface.report.recorder import Find, Recorder
 from graphface.report.trace import Trace
 from graphface.values.writing import check_folder
 
@@ -43,27 +40,6 @@ class TraceFile(Trace, Follower):
 
     def write(self) -> None:
         self.write_to(self._path)
-
-
-class ReportFile(Recorder, Follower):
-    """`--report run.html`."""
-
-    def __init__(self, path: Path, size: int, find: Find) -> None:
-        super().__init__(find, size)
-        self._path = path
-
-    def check(self) -> None:
-        check_report(self._path)
-
-    def stopped(self, error: BaseException | None) -> None:
-        Recorder.stopped(self, error)
-
-    def write(self) -> None:
-        write_report(self, self._path)
-
-
-class DumpFolder(Dump, Follower):
-    """`--dump DIR`."""
 
 
 @contextmanager

@@ -18,6 +18,9 @@ GraphName = Annotated[
 Inputs = Annotated[
     list[str], typer.Option("-i", "--input", metavar="NAME=VALUE", help="A graph input: a file, or a value.")
 ]
+Pins = Annotated[
+    list[str], typer.Option("--pin", metavar="NODE=FILE", help="Use this file, or value, in place of a node's result.")
+]
 Asked = Annotated[
     list[str], typer.Option("-o", "--output", metavar="NAME", help="An output, or any node.port; default: all.")
 ]
@@ -105,13 +108,26 @@ def read_inputs(pairs: list[str]) -> dict[str, Any]:
     Raises:
         UsageError: a flag is not of that form, or an input is given twice.
     """
+    return _read_pairs(pairs, "-i", "input {name!r} is given twice; --map {name}=FOLDER runs every file of one")
+
+
+def read_pins(pairs: list[str]) -> dict[str, Any]:
+    """ "node=value" flags as a dictionary.
+
+    Raises:
+        UsageError: a flag is not of that form, or a node is pinned twice.
+    """
+    return _read_pairs(pairs, "--pin", "node {name!r} is pinned twice")
+
+
+def _read_pairs(pairs: list[str], flag: str, twice: str) -> dict[str, Any]:
     from graphface.errors import UsageError
 
     given: dict[str, Any] = {}
     for text in pairs:
-        name, value = _pair(text, "-i")
+        name, value = _pair(text, flag)
         if name in given:
-            raise UsageError(f"-i {text!r}: input {name!r} is given twice; --map {name}=FOLDER runs every file of one")
+            raise UsageError(f"{flag} {text!r}: {twice.format(name=name)}")
         given[name] = value
     return given
 

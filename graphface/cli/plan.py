@@ -7,6 +7,7 @@ from graphface.cli.options import (
     Cache,
     GraphName,
     Inputs,
+    Pins,
     Plugins,
     Profiles,
     Replaces,
@@ -15,6 +16,7 @@ from graphface.cli.options import (
     load_graph,
     open_cache,
     read_inputs,
+    read_pins,
 )
 
 
@@ -27,6 +29,7 @@ def plan(
     variants: Variants = [],  # noqa: B006
     profiles: Profiles = [],  # noqa: B006
     plugins: Plugins = [],  # noqa: B006
+    pins: Pins = [],  # noqa: B006
     cache: Cache = None,
 ) -> None:
     """Show what a run would do: every node as run, memory, disk, maybe or skipped, with the reason."""
@@ -36,4 +39,8 @@ def plan(
 
     loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
     names = [text.partition("=")[0] for text in output] or None
-    print_plan(make_plan(loaded.request(read_inputs(inputs), names), Evaluator(disk=open_cache(cache, []))))
+    print_plan(
+        make_plan(
+            loaded.request(read_inputs(inputs), names, pinned=read_pins(pins)), Evaluator(disk=open_cache(cache, []))
+        )
+    )

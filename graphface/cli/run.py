@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,6 +16,7 @@ from graphface.cli.options import (
     GraphName,
     Inputs,
     Memory,
+    Pins,
     Plugins,
     Profiles,
     Replaces,
@@ -23,6 +25,7 @@ from graphface.cli.options import (
     load_graph,
     open_cache,
     read_inputs,
+    read_pins,
 )
 from graphface.report import picture_size
 
@@ -60,6 +63,18 @@ def run(
     peaks: Annotated[
         bool, typer.Option("--peaks", help="Measure each node's peak of memory for --trace: one thread, slower.")
     ] = False,
+    pins: Pins = [],  # noqa: B006
+    breaks: Annotated[
+        list[str],
+        typer.Option("--break", metavar="NODE[:after]", help="Stop before or after this node and ask what to do."),
+    ] = [],  # noqa: B006
+    save_failure: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.zip", help="Keep what a failing node was given, for graphface replay."),
+    ] = None,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Run again whenever a file changes: graph, input, plug-in, operator.")
+    ] = False,
     report: Annotated[
         Path | None,
         typer.Option(metavar="run.html", help="Write a page with a picture of every value, also where the run fails."),
@@ -90,31 +105,38 @@ def run(
     import os
 
     from graphface.cache.memory import MemoryTier
-    from graphface.cli.following import DumpFolder, ReportFile, TraceFile
+    from graphface.cli.beside import Beside
+    from graphface.cli.stopping import stopping_at
+    from graphface.cli.watch import watch_run
     from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_times, print_warnings
     from graphface.settings import memory_budget
 
-    following = {"--trace": trace, "--report": report, "--dump": dump}
-    _check_options(guard, following, peaks=peaks, maps=maps, memory=memory)
-    loaded = load_graph(graph, sets, replaces, variants, profiles, plugins)
-    given = read_inputs(inputs)
+    beside = Beside(trace, peaks, report, report_size, dump, save_failure)
+    beside.check(maps)
+    _check_options(guard, maps=maps, memory=memory, breaks=breaks, watch=watch, pins=pins)
+    load = partial(load_graph, graph, sets, replaces, variants, profiles, plugins)
+    given, pinned = read_inputs(inputs), read_pins(pins)
     said: list[str] = []
     evaluator = Evaluator(
-        memory=MemoryTier(memory_budget(memory)) if maps else None,
+        memory=MemoryTier(memory_budget(memory)) if maps or breaks or watch else None,
         disk=open_cache(cache, said, cache_size),
         threads=1 if peaks else threads or os.cpu_count() or 1,
         guard=guard,  # type: ignore[arg-type]
     )
+    followers = beside.followers(evaluator)
+    once = partial(run_once, output=output, given=given, followers=followers, history=cache, pinned=pinned)
+    if watch:
+        watch_run(load, once, evaluator, [Path(graph), *map(Path, (given | pinned).values())], plugins, cache, times)
+        return
+    loaded = load()
     records: list[Record] = []
     try:
         if maps:
             run_map(loaded, output, given, maps, evaluator, records)
         else:
-            followers: list[Follower] = [TraceFile(trace, peaks=peaks)] if trace is not None else []
-            followers += [ReportFile(report, report_size, evaluator.find)] if report is not None else []
-            followers += [DumpFolder(dump, evaluator)] if dump is not None else []
-            records += run_once(loaded, output, given, evaluator, followers, history=cache)
+            with stopping_at(breaks, loaded, evaluator, threads) as (evaluator, stops):
+                records += once(loaded, evaluator=evaluator, observers=stops, quiet=bool(stops))
     finally:
         print_warnings([*(f"{r.name}: {w}" for r in records for w in r.warnings), *said])
         if times and records:
@@ -122,20 +144,19 @@ def run(
 
 
 def _check_options(
-    guard: str, following: Mapping[str, Path | None], *, peaks: bool, maps: list[str], memory: str | None
+    guard: str, *, maps: list[str], memory: str | None, breaks: list[str], watch: bool, pins: list[str]
 ) -> None:
     """Refuse options that do not go together."""
     from graphface.errors import UsageError
 
     if guard not in ("off", "warn", "error"):
         raise UsageError(f"--guard {guard!r}: expected off, warn or error")
-    if peaks and following["--trace"] is None:
-        raise UsageError("--peaks is measured for the trace; add --trace run.json")
-    if maps and any(path is not None for path in following.values()):
-        names = ", ".join(name for name, path in following.items() if path is not None)
-        raise UsageError(f"{names}: follows one run; leave it out with --map")
-    if memory is not None and not maps:
-        raise UsageError("--memory is what is kept from one combination of --map to the next; one run keeps nothing")
+    if maps and (pins or breaks or watch):
+        raise UsageError("--pin, --break and --watch are about one run; leave them out with --map")
+    if breaks and watch:
+        raise UsageError("--break stops one run; leave it out with --watch")
+    if memory is not None and not (maps or breaks or watch):
+        raise UsageError("--memory is what is kept from one run of --map or --watch to the next; one run keeps nothing")
 
 
 def run_once(
@@ -146,12 +167,16 @@ def run_once(
     followers: Sequence[Follower],
     *,
     history: Path | None,
+    pinned: dict[str, Any] | None = None,
+    observers: Sequence[Observer] = (),
+    quiet: bool = False,
 ) -> list[Record]:
     """One run, its outputs written when all of them are there; what became of every node.
 
     Args:
         followers: what is written beside the outputs, also where the run fails.
         history: the cache folder, beside which the run is remembered.
+        pinned: values that stand in for nodes. observers: further ones. quiet: show no progress.
     """
     from graphface.cli.following import written
     from graphface.cli.output import OutputFiles
@@ -159,15 +184,15 @@ def run_once(
     from graphface.report.terminal import ProgressBar
 
     files = output_files(graph, output, given)
-    asked = graph.request(given, files)
+    asked = graph.request(given, files, pinned=pinned)
     outputs = OutputFiles(graph, asked.targets, evaluator)
     outputs.check(files)
-    _check_kept(files.values(), given.values())
-    with ProgressBar() as bar, written(followers):
-        observers: list[Observer] = [bar, *followers, *outputs.observers(files)]
+    _check_kept(files.values(), [*given.values(), *(pinned or {}).values()])
+    with ProgressBar(silent=quiet) as bar, written(followers):
+        watching: list[Observer] = [bar, *followers, *observers, *outputs.observers(files)]
         if evaluator.disk is not None:
-            observers.append(Remember(History.beside(history), evaluator.disk))
-        result = evaluator.run(asked, observers)
+            watching.append(Remember(History.beside(history), evaluator.disk))
+        result = evaluator.run(asked, watching)
     outputs.write(result, files)
     return result.records
 

@@ -88,6 +88,7 @@ class _Composer:
             profiles=sorted(self._declared["profile"]),
             scope=scope,
             problems=self._problems,
+            files=[*([document.path] if document.path is not None else []), *self._files.read],
         )
 
     def _check_choices(self) -> None:

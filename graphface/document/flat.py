@@ -46,7 +46,8 @@ class FlatNode:
 class Composition:
     """The whole flat graph.
 
-    `problems` is what is wrong so far; wiring adds what it finds, so that all of it is reported together.
+    `problems` is what is wrong so far; wiring adds what it finds, so that all of it is reported together. `files` are
+    those that were read.
     """
 
     path: Path | None
@@ -59,3 +60,4 @@ class Composition:
     profiles: list[str]
     scope: Scope
     problems: list[Problem]
+    files: list[Path] = field(default_factory=list)

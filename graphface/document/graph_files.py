@@ -69,6 +69,11 @@ class GraphFiles:
         self._problems.append(Problem(f"no graph file {name!r}", place, nearest))
         return None
 
+    @property
+    def read(self) -> list[Path]:
+        """The files that were read, besides the one that was asked for."""
+        return list(self._read)
+
     def _loaded(self, path: Path, name: str, place: Place | None) -> Document | None:
         if not any(path.is_relative_to(root) for root in self._roots):
             self._problems.append(Problem(f"{name!r} lies outside the folder of the graph", place))

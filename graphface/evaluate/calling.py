@@ -51,6 +51,8 @@ class Caller:
         self._guard = guard
         self._finite = finite
         self._on_start = hooks.node_started
+        self._on_call = hooks.node_called
+        self._paused: dict[int, float] = {}
         self._observed = hooks.any
 
     def evaluate(self, slot: int, step: Step | None, declined: Declined | None) -> Outcome:
@@ -70,6 +72,7 @@ class Caller:
         seconds = time.perf_counter() - start
         if self._observed:
             cpu = time.thread_time() - cpu
+            seconds -= self._paused.pop(slot, 0.0)
         return value, error, seconds, cpu, fallback.taken_warnings()
 
     def argument(self, argument: Argument) -> Any:
@@ -83,7 +86,7 @@ class Caller:
 
     def error(self, step: Step, error: Exception, arguments: Mapping[str, Any]) -> NodeError:
         """A failure with everything that helps to find its cause."""
-        reason = str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"
+        reason = reason_of(error)
         shown = {port: describe(value) for port, value in arguments.items()}
         function = step.operator.function
         code = declaration_line(function) if error.__traceback__ is None else own_line(error, function)
@@ -92,7 +95,7 @@ class Caller:
         return failure
 
     def _load(self, slot: int) -> Any:
-        bound, name = self._request.bound[slot], self._graph.input_names[slot]
+        bound, name = self._request.given(slot), self._graph.names[slot]
         if bound is None:
             raise InputError(name, f"this input ({self._graph.inputs[name].type}) is needed and was not given")
         try:
@@ -109,6 +112,8 @@ class Caller:
         else:
             plugged = {a.port: None if declined and a.port in declined else self.argument(a) for a in step.arguments}
             arguments = {**step.absent, **plugged}
+        if self._on_call:
+            self._tell_called(step, arguments)
         operator = step.operator
         try:
             given = {**arguments, **step.parameters} if step.parameters else arguments
@@ -125,6 +130,12 @@ class Caller:
                 self._not_finite(step, found, arguments)
         return value
 
+    def _tell_called(self, step: Step, arguments: Mapping[str, Any]) -> None:
+        start = time.perf_counter()
+        for hook in self._on_call:
+            hook(step.name, step, arguments)
+        self._paused[step.slot] = time.perf_counter() - start
+
     def _not_finite(self, step: Step, found: str, arguments: Mapping[str, Any]) -> None:
         if self._guard == "warn":
             fallback.warn(f"its output {found}")
@@ -135,7 +146,11 @@ class Caller:
         )
 
     def _files_behind(self, step: Step) -> list[str]:
-        """The files given for the graph inputs that a step depends on."""
-        bound = self._request.bound
-        inputs = (bound[slot] for slot in self._graph.behind([Ref(step.slot)]) if slot < len(bound))
-        return [one.origin for one in inputs if one is not None and one.is_file]
+        """The files given for the inputs and pinned nodes that a step depends on."""
+        given = (self._request.given(slot) for slot in self._request.behind([Ref(step.slot)]))
+        return [one.origin for one in given if one is not None and one.is_file]
+
+
+def reason_of(error: Exception) -> str:
+    """What a failed node says: the sentence of an error that speaks to the user, else the kind of the error too."""
+    return str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"

@@ -9,7 +9,7 @@ from typing import Any
 from graphface.cache.disk import DiskTier
 from graphface.cache.memory import MISSING, MemoryTier
 from graphface.evaluate.calling import Caller, Guard
-from graphface.evaluate.observe import Hooks, Observer
+from graphface.evaluate.observe import Hooks, Observer, StopRun
 from graphface.evaluate.run import Run
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
@@ -83,7 +83,17 @@ class Evaluator:
             InputError: an input that is needed was not given.
             RunFailed: a node failed; outputs that did not need it are in its `finished`.
             KeyboardInterrupt: between nodes; what was computed stays memoized.
+            StopRun: an observer ended the run.
         """
+        while True:
+            try:
+                return self._run(request, observers)
+            except StopRun as stop:
+                if stop.instead is None:
+                    raise
+                request = stop.instead
+
+    def _run(self, request: Request, observers: Sequence[Observer]) -> Result:
         hooks = Hooks((*self.observers, *observers))
 
         def caller(values: dict[bytes, Any]) -> Caller:

@@ -7,7 +7,7 @@ costs one test of an empty tuple.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -20,10 +20,27 @@ from graphface.record import Record
 Hook = Callable[..., None]
 
 
-class Observer:
-    """Base of observers; every hook does nothing. Hooks run on the thread that called `run`, except `node_started`.
+class StopRun(BaseException):
+    """Raised by an observer to end a run, or to run something else in its place. It is no mistake of anybody's.
 
-    One that raises is switched off for the rest of the run; see `Hooks`.
+    Not an `Exception`: a broken observer is switched off and a node that raises has failed, this passes through both.
+
+    Args:
+        why: in a sentence, for the user.
+        instead: what the evaluator runs now, on the same tiers, so that nothing is computed twice; None leaves the run
+            with this exception.
+    """
+
+    def __init__(self, why: str, instead: Request | None = None) -> None:
+        super().__init__(why)
+        self.instead = instead
+
+
+class Observer:
+    """Base of observers; every hook does nothing.
+
+    Hooks run on the thread that called `run`, except `node_started` and `node_called`. One that raises is switched off
+    for the rest of the run, see `Hooks`; `StopRun` ends it.
     """
 
     def run_started(self, request: Request) -> None:
@@ -31,6 +48,12 @@ class Observer:
 
     def node_started(self, name: str, step: Step | None) -> None:
         """A node's function (or, with no step, an input's file) is about to be evaluated."""
+
+    def node_called(self, name: str, step: Step, arguments: Mapping[str, Any]) -> None:
+        """A node's function is about to be called with these values of its ports, besides `step.parameters`.
+
+        What this hook takes does not count in the time of the node.
+        """
 
     def node_finished(self, record: Record, step: Step | None, value: Any) -> None:
         """A node was evaluated, found memoized, failed, was blocked or declined; `value` is None in the last three."""
@@ -43,7 +66,7 @@ class Hooks:
     """The hooks of one run: for each kind those that an observer overrides, ready to be called.
 
     An observer that raises is switched off for the rest of this run, with a warning: what it watches goes on.
-    KeyboardInterrupt passes, so that a hook can end the run.
+    KeyboardInterrupt and `StopRun` pass, so that a hook can end the run.
 
         hooks = Hooks(evaluator.observers)
         for hook in hooks.node_finished:
@@ -54,6 +77,7 @@ class Hooks:
         watched = [_Watched(observer) for observer in observers]
         self.run_started: tuple[Hook, ...] = _overridden(watched, "run_started")
         self.node_started: tuple[Hook, ...] = _overridden(watched, "node_started")
+        self.node_called: tuple[Hook, ...] = _overridden(watched, "node_called")
         self.node_finished: tuple[Hook, ...] = _overridden(watched, "node_finished")
         self.run_finished: tuple[Hook, ...] = _overridden(watched, "run_finished")
         self.any: bool = bool(watched)

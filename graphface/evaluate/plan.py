@@ -14,7 +14,7 @@ from graphface.evaluate.reason import NO_REASON, Reason
 from graphface.graph.demand import demanded, refused
 from graphface.graph.request import Request
 
-Fate = Literal["run", "memory", "disk", "maybe", "skipped"]
+Fate = Literal["run", "memory", "disk", "maybe", "skipped", "pinned"]
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,9 @@ class _Planner:
         while stack:
             slot, decider = stack.pop()
             known = self._fates.get(slot)
+            if slot in self._request.pinned:
+                self._pinned(slot)
+                continue
             step = self._graph.step(slot)
             if step is None or (known is not None and (known[0] != "maybe" or decider)):
                 continue
@@ -74,6 +77,13 @@ class _Planner:
             stack.extend((above, decider or step.name) for above in perhaps)
             for above, why in refused(step, declined or {}).items():
                 self._skipped.setdefault(above, Reason("declined", node=step.name, new=why))
+
+    def _pinned(self, slot: int) -> None:
+        step = self._graph.step(slot)
+        assert step is not None
+        self._fates[slot] = ("pinned", Reason("pinned", new=self._request.pinned[slot].origin))
+        for above in (*step.eager, *step.lazy):
+            self._skipped.setdefault(above, Reason("pinned below", node=step.name))
 
     def _spread(self, slot: int, reason: Reason) -> None:
         """What stands only behind a skipped node is skipped for the same reason."""

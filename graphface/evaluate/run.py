@@ -17,7 +17,7 @@ what the memory tier keeps is that tier's affair.
 from __future__ import annotations
 
 import queue
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from types import MappingProxyType
 from typing import Any, Protocol
@@ -66,7 +66,9 @@ class Run:
         self._hooks = hooks
         self._on_finish = hooks.node_finished
         self._names = request.graph.names
-        self._steps = request.graph.steps
+        self._steps: Sequence[Step | None] = request.graph.steps
+        if request.pinned:
+            self._steps = [step if step.slot not in request.pinned else None for step in request.graph.steps]
         self._first = len(request.graph.inputs)
         self._keys = request.keys.by_slot
         self._kept = {self._keys[ref.slot] for ref in request.targets.values()}
@@ -131,7 +133,7 @@ class Run:
             if value is not MISSING:
                 self._values[task.key] = value
                 task.heavy = True
-                self._tell(Record(self._names[task.slot], label(step), tier, task.key), step, value)
+                self._tell(Record(self._names[task.slot], label(task, self._first), tier, task.key), step, value)
                 self._arrived(task)
             elif step is None:
                 self._ready.append(task)
@@ -238,8 +240,8 @@ class Run:
                 task.size = sum([a.nbytes for a in arrays])
                 self._live += task.size
         self._tiers.keep(key, step, value, seconds, arrays)
-        name = self._names[task.slot]
-        self._tell(Record(name, label(step), "ran", key, seconds, cpu, task.size, "", warnings), step, value)
+        name, operator = self._names[task.slot], label(task, self._first)
+        self._tell(Record(name, operator, "ran", key, seconds, cpu, task.size, "", warnings), step, value)
         self._arrived(task)
         for source in task.sources:
             source.readers -= 1
@@ -272,7 +274,8 @@ class Run:
             step = current.step
             if current.declined is None and step is not None:
                 self._undecided -= 1
-            self._tell(Record(self._names[current.slot], label(step), now, current.key, took, reason=why), step)
+            name = self._names[current.slot]
+            self._tell(Record(name, label(current, self._first), now, current.key, took, reason=why), step)
             stack.extend((waiter, "blocked", "", 0.0) for waiter in current.waiters)
             current.waiters.clear()
 

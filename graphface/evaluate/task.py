@@ -42,6 +42,12 @@ class Task:
         self.size: int = 0
 
 
-def label(step: Step | None) -> str:
-    """What a record calls the operator; an input has none."""
-    return step.operator.name if step is not None else "input"
+def label(task: Task, first: int) -> str:
+    """What a record calls the operator; an input has none, nor has a pinned node.
+
+    Args:
+        first: the slot of the graph's first node.
+    """
+    if task.step is not None:
+        return task.step.operator.name
+    return "input" if task.slot < first else "pinned"

@@ -13,9 +13,10 @@ below no changed input is copied from them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
+from types import MappingProxyType
 
 from graphface.fingerprint import Fingerprint, fingerprint
 from graphface.graph.structure import Step, Structure
@@ -64,13 +65,15 @@ class Keys:
     Attributes:
         by_slot: 16 bytes for each input and step.
         declined: by slot, for the steps whose `needs` rule could be asked before the run.
-        digests: of the graph inputs; code: of the operators. What the keys were made from.
+        digests: of the graph inputs; code: of the operators; pinned: of the values that stand in for steps, by slot.
+            What the keys were made from.
     """
 
     by_slot: Sequence[bytes]
     declined: Mapping[int, Declined]
     digests: tuple[bytes, ...]
     code: Mapping[Operator, bytes]
+    pinned: Mapping[int, bytes]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,16 +98,24 @@ class KeyRecipe:
             for step in structure.steps
         )
 
-    def keys(self, digests: Sequence[bytes], decide: Decide, before: Keys | None = None) -> Keys:
+    def keys(
+        self,
+        digests: Sequence[bytes],
+        decide: Decide,
+        before: Keys | None = None,
+        pinned: Mapping[int, bytes] = MappingProxyType({}),
+    ) -> Keys:
         """The keys for these input digests, in slot order.
 
         Args:
             decide: asked about every step with lazy ports that an input change reaches.
             before: keys of the same graph for other inputs.
+            pinned: by slot, the digests of values that stand in for steps; each is the key of its slot.
         """
         digests = tuple(digests)
         code = CODE.digests(self._operators)
-        if before is None or before.code != code:
+        rows: Iterable[tuple[int, _Row]] = enumerate(self._rows, self._first)
+        if before is None or before.code != code or before.pinned != pinned:
             changed = bytearray(b"\1" * (self._first + len(self._rows)))
             by_slot = [*digests, *(b"" for _ in self._rows)]
             declined: dict[int, Declined] = {}
@@ -115,7 +126,11 @@ class KeyRecipe:
             changed.extend(bytes(len(self._rows)))
             by_slot = [*digests, *before.by_slot[self._first :]]
             declined = dict(before.declined)
-        for slot, row in enumerate(self._rows, self._first):
+        if pinned:
+            rows = [(slot, row) for slot, row in rows if slot not in pinned]
+            for slot, digest in pinned.items():
+                by_slot[slot] = digest
+        for slot, row in rows:
             parents = row.parents
             for parent in parents:
                 if changed[parent]:
@@ -131,7 +146,7 @@ class KeyRecipe:
             key = blake2b(text, digest_size=KEY_BYTES).digest()
             changed[slot] = key != by_slot[slot]
             by_slot[slot] = key
-        return Keys(by_slot, declined, digests, code)
+        return Keys(by_slot, declined, digests, code, pinned)
 
 
 def _settings(step: Step, known: dict[tuple[object, ...], bytes]) -> bytes:

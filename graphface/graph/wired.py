@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -90,18 +90,33 @@ class WiredGraph:
         assert found is not None
         return found
 
-    def behind(self, targets: Iterable[Ref]) -> list[int]:
-        """All slots that `targets` may need, lazy ones included, in an order that runs."""
+    def node(self, name: str) -> Step:
+        """The node of a name; what a nested graph calls so ("face.mask") is a name too.
+
+        Raises:
+            InputError: there is no such node, or the name is that of an input or of a field.
+        """
+        slot = self._structure.slots.get(name)
+        target = Ref(slot) if slot is not None else self._target(name)
+        step = self.step(target.slot)
+        if step is None:
+            raise InputError(name, "is an input of the graph; give it as one")
+        if target.fields:
+            raise InputError(name, f"is a field; name the whole node, {step.name!r}")
+        return step
+
+    def behind(self, targets: Iterable[Ref], without: Container[int] = ()) -> list[int]:
+        """All slots that `targets` may need, lazy ones included, in an order that runs.
+
+        Args:
+            without: slots above which nothing is needed.
+        """
 
         def above(slot: int) -> tuple[int, ...]:
             step = self.step(slot)
-            return (*step.eager, *step.lazy) if step is not None else ()
+            return (*step.eager, *step.lazy) if step is not None and slot not in without else ()
 
         return sorted(reached((ref.slot for ref in targets), above))
-
-    def steps_behind(self, targets: Iterable[Ref]) -> list[Step]:
-        """The nodes among `behind`."""
-        return [step for slot in self.behind(targets) if (step := self.step(slot)) is not None]
 
     def missing(self, given: Mapping[str, Any], targets: Iterable[Ref]) -> list[str]:
         """Inputs that `targets` may need and that are neither given nor have a default."""

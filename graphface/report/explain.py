@@ -57,11 +57,12 @@ def explain(request: Request, evaluator: Evaluator, history: History) -> list[Ex
     """Every node with its fate and the reason, before the request is run."""
     before = history.last(request.graph.name)
     now = identities(request)
+    pinned = {request.graph.names[slot] for slot in request.pinned}
     changed = {name for name in now if name in before and before[name].key != now[name].key}
     explained = []
     for entry in plan(request, evaluator):
         known, identity = before.get(entry.name), now.get(entry.name)
-        why = _why(known, identity, changed, evaluator) if identity is not None else NO_REASON
+        why = _why(known, identity, changed, pinned, evaluator) if identity is not None else NO_REASON
         reason = entry.reason
         if entry.fate == "run":
             reason = why
@@ -100,6 +101,8 @@ def with_results(
 
 
 def _with_record(entry: Explained, record: Record, damaged: Sequence[str]) -> Explained:
+    if entry.fate == "pinned":
+        return entry
     ran = record.state in ("ran", "failed")
     reason = entry.reason if entry.fate in ("run", "memory", "disk") else entry.otherwise
     if record.state == "failed":
@@ -131,13 +134,13 @@ def _declined(decider: str, records: Sequence[Record]) -> Reason:
     return Reason("not reached")
 
 
-def _why(before: Identity | None, now: Identity, changed: set[str], evaluator: Evaluator) -> Reason:
+def _why(before: Identity | None, now: Identity, changed: set[str], pinned: set[str], evaluator: Evaluator) -> Reason:
     """The first difference between a node's last identity and this one; where there is none, how its value got lost."""
     if before is None:
         return Reason("first seen")
     if before.key == now.key:
         return _lost(before, evaluator)
-    return next(changes(before, now, changed), Reason("lazy ports"))
+    return next(changes(before, now, changed, pinned), Reason("lazy ports"))
 
 
 def _lost(before: Identity, evaluator: Evaluator) -> Reason:

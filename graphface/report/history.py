@@ -24,6 +24,9 @@ from graphface.graph.request import Request
 from graphface.record import Record
 from graphface.values.writing import beside
 
+PINNED = "pinned"
+"""The operator of a node that a given value stands in for."""
+
 
 @dataclass
 class Identity:
@@ -43,7 +46,7 @@ class Identity:
 
 
 def identities(request: Request) -> dict[str, Identity]:
-    """The identity of every node that the request's targets may need."""
+    """The identity of every node that the request's targets may need; that of a pinned one is the value's."""
     names, keys = request.graph.names, request.keys.by_slot
     code = {operator: digest.hex() for operator, digest in request.keys.code.items()}
     found = {}
@@ -54,6 +57,8 @@ def identities(request: Request) -> dict[str, Identity]:
             a.port: [[".".join((names[r.slot], *r.fields)), keys[r.slot].hex()] for r in a.refs] for a in step.arguments
         }
         found[step.name] = Identity(operator.name, code[operator], kept, inputs, keys[step.slot].hex())
+    for slot in request.pinned:
+        found[names[slot]] = Identity(PINNED, "", {}, {}, keys[slot].hex())
     return found
 
 
@@ -149,7 +154,7 @@ def _had(request: Request, records: Sequence[Record]) -> list[str]:
 
     def above(slot: int) -> tuple[int, ...]:
         """What stands above a slot in the run; of one that did not run, what was surely had before."""
-        step = request.graph.step(slot)
+        step = request.step(slot)
         if step is None:
             return ()
         state = states.get(request.key(slot))

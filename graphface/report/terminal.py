@@ -21,20 +21,29 @@ from graphface.record import Record
 from graphface.report.explain import Explained
 from graphface.report.timings import Timings
 
-_FATE_STYLES = {"run": "green", "memory": "cyan", "disk": "cyan", "maybe": "yellow", "skipped": "dim", "ran": "green"}
+_FATE_STYLES = {
+    "run": "green",
+    "memory": "cyan",
+    "disk": "cyan",
+    "maybe": "yellow",
+    "pinned": "magenta",
+    "skipped": "dim",
+    "ran": "green",
+}
 
 
 class ProgressBar(Observer):
-    """A bar that grows with time, naming the node that runs; silent where standard error is not a terminal.
+    """A bar that grows with time, naming the node that runs; silent where standard error is not a terminal, or where
+    something else writes there.
 
     A node's share of the bar is what its operator took in earlier runs (`graphface.report.timings`), so that the time
     left means something when one node takes as long as all others.
     """
 
-    def __init__(self, title: str = "") -> None:
+    def __init__(self, title: str = "", *, silent: bool = False) -> None:
         columns = (TextColumn("{task.description:32}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
         self._progress = Progress(
-            *columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()
+            *columns, console=Console(stderr=True), transient=True, disable=silent or not sys.stderr.isatty()
         )
         self._title = title
         self._timings = Timings.load()

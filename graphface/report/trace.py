@@ -12,7 +12,7 @@ import platform
 import sys
 import threading
 import tracemalloc
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -76,7 +76,7 @@ class Trace(Observer):
             self._tracing = False
 
     def as_json(self) -> dict[str, Any]:
-        """Versions, graph, inputs and every node of the run; a parameter that JSON does not know is its `repr`.
+        """Versions, graph, what was given and every node of the run; a parameter that JSON does not know is its `repr`.
 
         Raises:
             RuntimeError: no run was followed.
@@ -84,13 +84,13 @@ class Trace(Observer):
         if self._request is None:
             raise RuntimeError("this trace followed no run")
         graph = self._request.graph
-        inputs = {b.name: _input(b) for b in self._request.bound if b is not None}
         return {
-            "versions": {"python": platform.python_version(), **_versions()},
+            "versions": versions(),
             "platform": f"{sys.platform} {platform.machine()}",
             "graph": graph.name,
             "document": graph.effective(origins=False),
-            "inputs": inputs,
+            "inputs": _origins(self._request.bound),
+            "pinned": _origins(self._request.pinned.values()),
             "nodes": [self._node(record) for record in self.records],
         }
 
@@ -121,7 +121,11 @@ class Trace(Observer):
         }
 
 
-def _input(bound: Bound) -> dict[str, Any]:
+def _origins(given: Iterable[Bound | None]) -> dict[str, Any]:
+    return {bound.name: _origin(bound) for bound in given if bound is not None}
+
+
+def _origin(bound: Bound) -> dict[str, Any]:
     """Where an input came from; of a number or text also what it was, since no file tells."""
     told: dict[str, Any] = {"origin": bound.origin, "digest": bound.digest.hex()}
     return told | {"value": jsonable(bound.number)} if bound.is_number else told
@@ -138,8 +142,9 @@ def jsonable(value: Any) -> Any:
     return value if known else repr(value)
 
 
-def _versions() -> dict[str, str]:
-    found = {}
+def versions() -> dict[str, str]:
+    """Of Python and of the packages that decide what operators give, where installed."""
+    found = {"python": platform.python_version()}
     for name in _LIBRARIES:
         try:
             found[name] = metadata.version(name)

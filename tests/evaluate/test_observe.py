@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from graphface import Evaluator, Graph, GraphfaceWarning, MemoryTier, Observer, Registry, load
+from graphface import Evaluator, Graph, GraphfaceWarning, MemoryTier, Observer, Registry, StopRun, load
 from graphface.evaluate.observe import Hooks
 
-HOOKS = ("run_started", "node_started", "node_finished", "run_finished")
+HOOKS = ("run_started", "node_started", "node_called", "node_finished", "run_finished")
 
 
 @pytest.fixture
@@ -36,6 +36,9 @@ class Counting(Observer):
     def node_started(self, *_: Any) -> None:
         self._called("node_started")
 
+    def node_called(self, *_: Any) -> None:
+        self._called("node_called")
+
     def node_finished(self, *_: Any) -> None:
         self._called("node_finished")
 
@@ -54,7 +57,7 @@ class TestBroken:
             result = graph.run(evaluator=evaluator)
         assert result["y"] == 2
         assert result.warnings == []
-        assert sound.calls == ["run_started", *["node_started", "node_finished"] * 3, "run_finished"]
+        assert sound.calls == ["run_started", *["node_started", "node_called", "node_finished"] * 3, "run_finished"]
         assert broken.calls == sound.calls[: sound.calls.index(hook) + 1]
         (warning,) = told
         assert f"Counting.{hook} raised ZeroDivisionError: on purpose ({__file__}:" in str(warning.message)
@@ -94,6 +97,44 @@ class TestBroken:
         evaluator = Evaluator(threads=threads, observers=[Counting(hook, KeyboardInterrupt)])
         with pytest.raises(KeyboardInterrupt):
             graph.run(evaluator=evaluator)
+
+
+class TestCalled:
+    def test_arguments(self, graph: Graph) -> None:
+        """`node_called` is told the values of the ports, of nodes that run and of no other."""
+        heard: list[tuple[str, dict[str, Any]]] = []
+
+        class Hearing(Observer):
+            def node_called(self, name: str, step: Any, arguments: Any) -> None:
+                heard.append((name, dict(arguments)))
+
+        evaluator = Evaluator(memory=MemoryTier(), observers=[Hearing()])
+        for _ in range(2):
+            graph.run(evaluator=evaluator)
+        assert heard == [("a", {}), ("b", {"a": 1.0}), ("c", {"a": 1.0, "b": 1.0})]
+
+
+class TestStopped:
+    @pytest.mark.parametrize("threads", [1, 3])
+    @pytest.mark.parametrize("hook", HOOKS)
+    def test_leaves(self, graph: Graph, hook: str, threads: int) -> None:
+        """`StopRun` leaves the run from any hook; whoever runs gets it, and the observer is not switched off."""
+        evaluator = Evaluator(threads=threads, observers=[Counting(hook, StopRun)])
+        with pytest.raises(StopRun, match="on purpose"):
+            graph.run(evaluator=evaluator)
+
+    def test_instead(self, graph: Graph) -> None:
+        """With a request it is run instead, by the same evaluator under the same observers."""
+        started: list[Any] = []
+
+        class Once(Observer):
+            def run_started(self, request: Any) -> None:
+                started.append(request)
+                if len(started) == 1:
+                    raise StopRun("again", graph.request({}, ["a"]))
+
+        assert dict(Evaluator().run(graph.request(), [Once()])) == {"a": 1.0}
+        assert len(started) == 2
 
 
 class TestOverridden:

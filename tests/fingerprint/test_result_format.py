@@ -16,7 +16,7 @@ from graphface.fingerprint.syntax import syntax
 
 GUARDED = {
     # arguments and parameters
-    "graphface.evaluate.calling:Caller._call": "e825802ca0d6",
+    "graphface.evaluate.calling:Caller._call": "58d9da3dc862",
     "graphface.evaluate.calling:Caller.argument": "d2643b67e89d",
     "graphface.graph.demand:take": "e7ac4f2ed25a",
     "graphface.node:Operator.cosmetic": "c4976becc8e0",
@@ -36,7 +36,7 @@ GUARDED = {
     "graphface.values.codec": "f27e20f3b041",
     # keys
     "graphface.values.digest": "f657f3225d49",
-    "graphface.graph.keys": "42de74559c6a",
+    "graphface.graph.keys": "dda815a28025",
 }
 
 

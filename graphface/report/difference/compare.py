@@ -19,7 +19,7 @@ from graphface.report.difference.node import NodeDifference
 from graphface.report.difference.side import Side, failure_of
 from graphface.report.difference.tolerance import EXACT, Tolerance
 from graphface.report.difference.values import differences
-from graphface.report.history import identities
+from graphface.report.history import PINNED, identities
 
 
 def compare(
@@ -150,11 +150,12 @@ class Comparison:
         return f"not needed in {self.labels[side]}: {lacking.declined.get(name, 'nothing that is asked for needs it')}"
 
     def _operator(self, side: int, name: str) -> str:
-        graph = self.sides[side].request.graph
-        if name not in graph.names:
+        asked = self.sides[side].request
+        if name not in asked.graph.names:
             return ""
-        step = graph.step(graph.names.index(name))
-        return step.operator.name if step is not None else "input"
+        slot = asked.graph.names.index(name)
+        step = asked.step(slot)
+        return step.operator.name if step is not None else PINNED if slot in asked.pinned else "input"
 
     def _key(self, side: int, name: str) -> bytes:
         return self.sides[side].request.key(self.sides[side].needed[name])

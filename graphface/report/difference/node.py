@@ -11,7 +11,7 @@ from graphface.report.difference.values import PartDifference
 
 Kind = Literal["values", "failed", "only here", "only there"]
 
-_OWN = ("operator", "code", "parameter", "wiring", "input", "lazy ports")
+_OWN = ("operator", "code", "parameter", "wiring", "input", "lazy ports", "unpinned")
 
 
 @dataclass(frozen=True)

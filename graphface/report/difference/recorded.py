@@ -26,13 +26,14 @@ class Recorded:
 
     Attributes:
         path: of the file. document: the effective graph, as YAML. inputs: by name "origin", "digest" and, of a number
-            or text, "value". nodes: what became of each.
+            or text, "value". nodes: what became of each. pinned: those that had a given value.
     """
 
     path: Path
     document: str
     inputs: Mapping[str, Mapping[str, Any]]
     nodes: tuple[Mapping[str, Any], ...]
+    pinned: tuple[str, ...] = ()
 
 
 def read_recorded(path: Path) -> Recorded:
@@ -43,7 +44,9 @@ def read_recorded(path: Path) -> Recorded:
     """
     try:
         held = read_report(path) if path.suffix.lower() == ".html" else json.loads(path.read_text(encoding="utf-8"))
-        return Recorded(path, str(held["document"]), dict(held["inputs"]), tuple(held["nodes"]))
+        return Recorded(
+            path, str(held["document"]), dict(held["inputs"]), tuple(held["nodes"]), tuple(held.get("pinned", ()))
+        )
     except OSError as error:
         raise UnreadableFile(path, error.strerror or str(error)) from None
     except (ValueError, KeyError, TypeError) as error:
@@ -57,8 +60,10 @@ def bound_again(graph: WiredGraph, recorded: Recorded, given: Mapping[str, Any])
         graph: that of the recorded document, or another: inputs that it lacks are left out.
 
     Raises:
-        UsageError: an input cannot be had again, or is not what it was.
+        UsageError: an input cannot be had again, or is not what it was; values stood in for nodes.
     """
+    if recorded.pinned:
+        raise UsageError(f"{recorded.path}: values were given for {', '.join(recorded.pinned)}; compare a run without")
     inputs = dict(given)
     for name, told in recorded.inputs.items():
         if name in graph.inputs and name not in given:

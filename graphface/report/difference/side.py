@@ -60,7 +60,7 @@ class Side:
         found = self._found(slot)
         if found is not MISSING:
             return found
-        again = request(self.request.graph, self._given(), [name])
+        again = request(self.request.graph, self._given(), [name], self._pinned())
         return self._evaluator.run(again)[name]
 
     def view(self, name: str, size: int) -> View:
@@ -92,7 +92,7 @@ class Side:
             if slot in slots:
                 continue
             slots.add(slot)
-            step = graph.step(slot)
+            step = self.request.step(slot)
             if step is not None:
                 declined = self._declined(step)
                 stack += demanded(step, declined)[0]
@@ -109,7 +109,7 @@ class Side:
             if slot in slots or name in self.declined:
                 continue
             self.declined[name] = why
-            step = graph.step(slot)
+            step = self.request.step(slot)
             without += [(above, why) for above in (*step.eager, *step.lazy)] if step is not None else []
 
     def _declined(self, step: Step) -> Declined | None:
@@ -134,14 +134,17 @@ class Side:
         return values if argument.is_list else values[0]
 
     def _found(self, slot: int) -> Any:
-        step = self.request.graph.step(slot)
-        bound = self.request.bound[slot] if step is None else None
+        step = self.request.step(slot)
+        bound = self.request.given(slot)
         if bound is not None:
             return bound.value
         return self._evaluator.find(self.request.key(slot), step)[0]
 
     def _given(self) -> dict[str, Any]:
         return {b.name: b for b in self.request.bound if b is not None}
+
+    def _pinned(self) -> dict[str, Any]:
+        return {self.request.graph.names[slot]: bound for slot, bound in self.request.pinned.items()}
 
 
 def _ran(asked: Request, evaluator: Evaluator) -> Sequence[Record]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-MarkState = Literal["ran", "memory", "disk", "declined", "skipped", "failed", "blocked", ""]
+MarkState = Literal["ran", "memory", "disk", "pinned", "declined", "skipped", "failed", "blocked", ""]
 DIMMED = frozenset({"declined", "skipped", "blocked"})
 
 

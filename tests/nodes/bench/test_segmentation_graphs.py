@@ -9,7 +9,7 @@ from graphface.nodes.bench.segmentation_graphs import LABELLINGS, MATTED, MATTIN
 
 def behind(graph, node):
     """Names of the nodes that a node may need, itself included."""
-    return {step.name for step in graph.steps_behind(graph.targets([node]).values())}
+    return {step.name for step in graph.request({}, [node]).steps()}
 
 
 class TestSegmentationGraph:

@@ -1,0 +1,35 @@
+"""`graphface run --save-failure`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from graphface.cli.following import Follower
+from graphface.errors import UnwritableFile, UsageError
+from graphface.fallback import warn
+from graphface.report.failure import FirstFailure, write_failure
+from graphface.values.writing import check_folder
+
+
+class FailureFile(FirstFailure, Follower):
+    """`--save-failure FILE.zip`: written only where a node fails."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self._path = path
+
+    def check(self) -> None:
+        check_folder(self._path)
+        if self._path.suffix.lower() != ".zip":
+            raise UsageError(f"--save-failure {self._path}: the name ends in .zip")
+
+    def write(self) -> None:
+        if self.failed is None:
+            return
+        try:
+            write_failure(self.failed, self._path)
+        except UnwritableFile as error:
+            warn(f"the failure is not saved: {error}")
+        else:
+            print(f"node {self.failed.step.name!r} is in {self._path}: graphface replay {self._path}", file=sys.stderr)
