@@ -71,13 +71,15 @@ def read_sides(texts: Sequence[str], common: Flags) -> list[Given]:
 def bound_inputs(sides: list[Given], common: list[str]) -> list[dict[str, Any]]:
     """The inputs of every side: its own, those given for both, those of the run it comes from.
 
-    A graph takes what it has not been given from the other side, so that a trace can be compared with a graph.
+    A graph takes what it needs and has not been given from the other side; from an earlier run all, its defaults too, so
+    that both are asked the same question.
 
     Raises:
         UsageError: an input of an earlier run cannot be had again, or one is given that no side has.
     """
     from graphface.cli.options import read_inputs
     from graphface.errors import InputError, nearest_names
+    from graphface.graph.inputs import missing_inputs
     from graphface.report.difference.recorded import bound_again
 
     shared = read_inputs(common)
@@ -89,10 +91,10 @@ def bound_inputs(sides: list[Given], common: list[str]) -> list[dict[str, Any]]:
     for side in sides:
         given = {name: value for name, value in shared.items() if name in side.graph.inputs} | side.inputs
         bound.append(bound_again(side.graph, side.recorded, given) if side.recorded is not None else given)
-    for side, inputs, others in zip(sides, bound, reversed(bound), strict=True):
-        borrowed = {n: v for n, v in others.items() if n in side.graph.inputs and n not in inputs}
+    for side, inputs, other, others in zip(sides, bound, reversed(sides), reversed(bound), strict=True):
         if side.recorded is None:
-            inputs.update(borrowed)
+            missing = side.graph.inputs if other.recorded is not None else missing_inputs(side.graph.inputs, inputs)
+            inputs |= {name: others[name] for name in missing if name in others and name not in inputs}
     return bound
 
 

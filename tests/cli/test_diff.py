@@ -61,10 +61,11 @@ class TestTwoGraphs:
         assert "parameter by changed" in (tmp_path / "d.html").read_text(encoding="utf-8")
 
     def test_inputs(self, graphface: Callable[..., object], plugin: list[str], graph: Path) -> None:
-        """-i is for both sides, in the quotes for one; a side takes what it lacks from the other."""
+        """-i is for both sides, in the quotes for one: the other keeps its default."""
         asked = ("diff", *plugin, "--output", "unused")
         assert graphface(*asked, graph, graph, "-i", "x=3").code == 0
-        assert graphface(*asked, graph, f"{graph} -i x=3").code == 0
+        assert graphface(*asked, graph, f"{graph} -i x=2").code == 0
+        assert graphface(*asked, graph, f"{graph} -i x=3").code == 1
         said = graphface(*asked, f"{graph} -i x=2", f"{graph} -i x=3")
         assert (said.code, "input x changed" in said.out) == (1, True)
 

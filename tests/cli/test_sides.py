@@ -47,10 +47,18 @@ def test_plugins_are_loaded_once(graph: Path) -> None:
 
 
 def test_bound_inputs(graph: Path) -> None:
-    """A side's own, then those for both, then what the other side has."""
+    """A side's own, then those for both."""
     own, none = read_side(f"{graph} -i x=4", COMMON), read_side(str(graph), COMMON)
-    assert bound_inputs([own, none], []) == [{"x": "4"}, {"x": "4"}]
     assert bound_inputs([own, none], ["x=7"]) == [{"x": "4"}, {"x": "7"}]
+
+
+def test_borrowed_inputs(graph: Path) -> None:
+    """What a side needs and lacks it has from the other; its own default stands, or no changed input would be seen."""
+    own, default = read_side(f"{graph} -i x=4", COMMON), read_side(str(graph), COMMON)
+    assert bound_inputs([own, default], []) == [{"x": "4"}, {}]
+    graph.write_text(graph.read_text().replace("{type: float, default: 2}", "float"))
+    needed = read_side(str(graph), COMMON)
+    assert bound_inputs([own, needed], []) == [{"x": "4"}, {"x": "4"}]
 
 
 def test_mistakes(graph: Path) -> None:
