@@ -1,15 +1,17 @@
 """How large the pictures of a report are, in pixels of their longer side.
 
-Measured with `tests/bench/report_cost.py`, photos of 1 megapixel (4 : 5 and square), seconds of CPU and page:
+Measured with `tests/bench/report_cost.py` on photos of 1 megapixel, 4 : 5, on two busy cores; seconds of CPU and page:
 
     size    relight            makeup
-     192    +0.44 s, 1.8 MB    +1.1 s,  4.9 MB
-     256    +0.57 s, 2.8 MB    +1.2 s,  7.7 MB
-     320    +0.84 s, 3.9 MB    +1.8 s, 11.0 MB
-     384    +0.96 s, 5.2 MB    +2.3 s, 14.9 MB
+     192    +0.4 s, 1.8 MB     +1.1 s,  4.9 MB
+     224    +0.5 s, 2.2 MB     +1.2 s,  6.2 MB
+     256    +0.5 s, 2.8 MB     +1.5 s,  7.7 MB
+     320    +0.8 s, 3.9 MB     +2.0 s, 11.0 MB
+     384    +1.0 s, 5.2 MB     +2.3 s, 14.9 MB
 
-A relight without a report took 1.27 s, a makeup 2.63 s.
+A relight without a report takes 1.3 s, a makeup 2.8 s. The default is the largest at which a makeup of two square photos
+stays below 8 MB: 7.5 MB, where 240 pixels take 8.3 and 256 take 8.9.
 """
 
-DEFAULT = 256
+DEFAULT = 224
 SMALLEST, LARGEST = 32, 4096
