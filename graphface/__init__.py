@@ -14,7 +14,7 @@ import importlib
 import os.path
 from typing import TYPE_CHECKING, Any
 
-from graphface.node import Cosmetic, Formerly, Needs, node
+from graphface.node import Cosmetic, Figure, Formerly, Needs, node
 
 if TYPE_CHECKING:
     from graphface.assets.asset import Asset
@@ -94,6 +94,7 @@ __all__ = [
     "DeclarationError",
     "DocumentError",
     "Evaluator",
+    "Figure",
     "Files",
     "Formerly",
     "Graph",

@@ -18,7 +18,7 @@ import typing
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from graphface.declaration import Signature, parameter_model, read_signature
 from graphface.values.port_types import PortType, is_lazy, output_fields, port_type
@@ -45,6 +45,22 @@ class Formerly:
 
     def __init__(self, *names: str) -> None:
         self.names = names
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Put into the `Annotated` of an operator's output where the number is a figure of merit.
+
+    @node("metrics.psnr")
+    def psnr(result: Image, truth: Image) -> Annotated[float, Figure(better="higher", unit="dB")]: ...
+
+    Args:
+        better: which of two figures is the better one.
+        unit: what stands behind it: "dB", "°".
+    """
+
+    better: Literal["higher", "lower"]
+    unit: str = ""
 
 
 def node(
@@ -135,6 +151,11 @@ class Operator:
     @property
     def output_annotation(self) -> Any:
         return self._hints["return"]
+
+    @property
+    def figure(self) -> Figure | None:
+        """What the output is as a figure of merit; None where it is none, or does not say."""
+        return next((m for m in getattr(self.output_annotation, "__metadata__", ()) if isinstance(m, Figure)), None)
 
     def annotation(self, name: str) -> Any:
         """The annotation of a port or parameter."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from graphface.errors import UsageError, did_you_mean, nearest_names
 
@@ -22,6 +22,15 @@ class Metric:
 
     name: str
     operator: Operator
+
+    @property
+    def better(self) -> Literal["higher", "lower"] | None:
+        """Which of two figures is the better one; None where the operator does not say (`graphface.Figure`)."""
+        return self.operator.figure.better if self.operator.figure is not None else None
+
+    @property
+    def unit(self) -> str:
+        return self.operator.figure.unit if self.operator.figure is not None else ""
 
 
 def metrics_for(declared: PortType, registry: Registry, asked: Sequence[str] = ()) -> list[Metric]:

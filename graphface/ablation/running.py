@@ -44,6 +44,16 @@ class Cell:
     failure: str = ""
 
 
+class Watcher:
+    """Sees the values of a variant while they are in memory: base of those who draw them; does nothing."""
+
+    def case_started(self, case: int, requests: Sequence[Request]) -> None:
+        """All variants of a case are about to be run."""
+
+    def variant_finished(self, cell: Cell, asked: Request, records: Sequence[Record]) -> None:
+        """One of them was run, or failed."""
+
+
 @dataclass(frozen=True)
 class Ablation:
     """Every cell, by case and within it by variant; `truths` are the true outputs by case, None where not given."""
@@ -54,6 +64,7 @@ class Ablation:
     cases: list[Mapping[str, Any]]
     cells: list[Cell] = field(repr=False)
     truths: list[Any] = field(repr=False)
+    metrics: Sequence[Metric] = ()
 
     def of_case(self, case: int) -> list[Cell]:
         return [cell for cell in self.cells if cell.case == case]
@@ -86,6 +97,7 @@ def ablate(
     evaluator: Evaluator | None = None,
     loading: Mapping[str, Any] | None = None,
     said: Callable[[str], None] = lambda _: None,
+    watcher: Watcher | None = None,
 ) -> Ablation:
     """Run every variant of a graph on every case.
 
@@ -97,6 +109,7 @@ def ablate(
         evaluator: where to run; by default a new one with a memory tier, one thread (node times are then undisturbed).
         loading: further arguments of `graphface.load`, for every variant.
         said: told the name of each variant as it starts.
+        watcher: sees the values of each variant when it is done.
 
     Raises:
         UsageError: a swap that the graph cannot take. InputError: an input that does not fit.
@@ -113,11 +126,18 @@ def ablate(
     known: dict[bytes, float] = {}
     kept = list(truths) if truths else [None] * len(cases)
     cells = []
+    watcher = watcher if watcher is not None else Watcher()
     for index, case in enumerate(cases):
-        for variant, graph in zip(chosen, graphs, strict=True):
+        requests = [request(graph, case, [name]) for graph in graphs]
+        watcher.case_started(index, requests)
+        for variant, asked in zip(chosen, requests, strict=True):
             said(variant.name)
-            cells.append(_cell(graph, variant, index, case, name, kept[index], metrics, evaluator, known, swapped))
-    return Ablation(base, name, chosen, list(cases), cells, kept)
+            value, failure, records = _evaluated(evaluator, asked, name)
+            figures = measured(metrics, value, kept[index]) if value is not None and kept[index] is not None else {}
+            cell = _cell(asked, variant, index, value, failure, figures, records, known, swapped)
+            watcher.variant_finished(cell, asked, records)
+            cells.append(cell)
+    return Ablation(base, name, chosen, list(cases), cells, kept, metrics)
 
 
 def differing(graphs: Sequence[Graph]) -> frozenset[str]:
@@ -139,28 +159,26 @@ def _loaded(source: str | Path, variant: Variant, given: Mapping[str, Any]) -> G
 
 
 def _cell(
-    graph: Graph,
+    asked: Request,
     variant: Variant,
-    index: int,
-    case: Mapping[str, Any],
-    output: str,
-    truth: Any,
-    metrics: Sequence[Metric],
-    evaluator: Evaluator,
+    case: int,
+    value: Any,
+    failure: str,
+    figures: Mapping[str, float],
+    records: Sequence[Record],
     known: dict[bytes, float],
     swapped: frozenset[str],
 ) -> Cell:
-    asked = request(graph, case, [output])
-    value, failure, records = _evaluated(evaluator, asked, output)
+    """The accounts of one variant; `known` are the seconds of every key that has run so far, and gets those of now."""
     ran = {r.key: r.seconds for r in records if r.state == "ran"}
     known.update(ran)
     needed = {asked.key(step.slot): step for step in asked.steps() if asked.key(step.slot) in known}
     slowest = max(needed, key=lambda key: known[key], default=b"")
     return Cell(
         variant=variant,
-        case=index,
+        case=case,
         value=value,
-        figures=measured(metrics, value, truth) if value is not None and truth is not None else {},
+        figures=figures,
         alone=sum(known[key] for key in needed),
         spent=sum(seconds for key, seconds in ran.items() if key in needed),
         nodes=len(needed),
@@ -177,5 +195,5 @@ def _evaluated(evaluator: Evaluator, asked: Request, output: str) -> tuple[Any, 
     try:
         result = evaluator.run(asked)
     except RunFailed as error:
-        return None, str(error).partition("\n")[0], error.records
+        return None, "; ".join(f"{failure.node}: {failure.reason}" for failure in error.failures), error.records
     return result[output], "", result.records

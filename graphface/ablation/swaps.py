@@ -2,13 +2,14 @@
 
 A swap has a subject and values. The subject is a node ("intrinsic", or its path "face/intrinsic" where two nodes share
 the name), a parameter ("light.order"), "variant" or "profile". Values of a node are operators of its family, with or
-without the family's name.
+without the family's name. "all" stands for every value there is: the operators of the family that fit, the choices of a
+parameter, the declared variants or profiles after "none" of them.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from graphface.graph.structure import Step
 
 OVERLAYS = ("variant", "profile")
+ALL = "all"
+NONE = "none"
+"""In place of a variant or profile: the graph without one, unless it declares one of that name."""
 
 
 @dataclass(frozen=True)
@@ -74,11 +78,26 @@ def _read(text: str, graph: Graph) -> Swap:
     if not equals or not subject or not values:
         raise UsageError(f"--swap {text!r}: expected NODE=METHOD,METHOD or NODE.PARAMETER=VALUE,VALUE")
     if subject in OVERLAYS:
-        return Swap(subject, subject, tuple(values), text)
+        return Swap(subject, subject, _overlays(subject, values, graph), text)
     step = _step(subject, graph)
     if step is not None:
-        return Swap("operator", step.name, tuple(_operator(value, step, graph, text) for value in values), text)
+        named = _expanded(
+            values, lambda: [o.name for o in (step.operator, *graph.registry.alternatives(step.operator))]
+        )
+        return Swap("operator", step.name, tuple(_operator(value, step, graph, text) for value in named), text)
     return _parameter_swap(subject, values, text, graph)
+
+
+def _overlays(kind: str, values: Sequence[str], graph: Graph) -> tuple[str | None, ...]:
+    """Names of variants or profiles; None for the graph without one."""
+    declared = graph.composition.variants if kind == "variant" else graph.composition.profiles
+    named = _expanded(values, lambda: [NONE, *declared])
+    return tuple(None if name == NONE and NONE not in declared else name for name in named)
+
+
+def _expanded(values: Sequence[Any], everything: Callable[[], Sequence[Any]]) -> list[Any]:
+    """The values, with "all" replaced by every value there is; each once."""
+    return list(dict.fromkeys(v for value in values for v in (everything() if value == ALL else [value])))
 
 
 def _parameter_swap(subject: str, values: Sequence[str], text: str, graph: Graph) -> Swap:
@@ -92,7 +111,19 @@ def _parameter_swap(subject: str, values: Sequence[str], text: str, graph: Graph
     if parameter not in parameters:
         near = did_you_mean(nearest_names(parameter, parameters))
         raise UsageError(f"--swap {text!r}: {step.operator.name} has no parameter {parameter!r}{near}")
-    return Swap("parameter", f"{step.name}.{parameter}", tuple(scalar(value) for value in values), text)
+    present = step.operator.renamed.get(parameter, parameter)
+    named = _expanded([scalar(value) for value in values], lambda: _choices(step, present, text))
+    return Swap("parameter", f"{step.name}.{parameter}", tuple(named), text)
+
+
+def _choices(step: Step, parameter: str, text: str) -> list[Any]:
+    """Everything that a parameter can be, where those are few: the choices of a Literal, both of a flag."""
+    described = step.operator.parameters.model_json_schema()["properties"][parameter]
+    if described.get("type") == "boolean":
+        return [False, True]
+    if "enum" not in described:
+        raise UsageError(f"--swap {text!r}: {parameter!r} can be more than a list says; name its values")
+    return list(described["enum"])
 
 
 def _step(name: str, graph: Graph) -> Step | None:
@@ -123,10 +154,11 @@ def _variant(swaps: Sequence[Swap], values: Sequence[Any]) -> Variant:
         name=" · ".join(_label(swap, value) for swap, value in pairs) or "as it is",
         replace={s.subject: v for s, v in pairs if s.kind == "operator"},
         set={s.subject: v for s, v in pairs if s.kind == "parameter"},
-        variants=tuple(v for s, v in pairs if s.kind == "variant"),
-        profiles=tuple(v for s, v in pairs if s.kind == "profile"),
+        variants=tuple(v for s, v in pairs if s.kind == "variant" and v is not None),
+        profiles=tuple(v for s, v in pairs if s.kind == "profile" and v is not None),
     )
 
 
 def _label(swap: Swap, value: Any) -> str:
-    return str(value) if swap.kind == "operator" else f"{swap.subject.rpartition('/')[2]}={value}"
+    shown = NONE if value is None and swap.kind in OVERLAYS else value
+    return str(shown) if swap.kind == "operator" else f"{swap.subject.rpartition('/')[2]}={shown}"

@@ -1,17 +1,41 @@
-"""The table: a line for each variant, the mean over cases, as CSV and as Markdown."""
+"""The table: a line for each variant, the mean over cases; in full precision as CSV, rounded for people."""
 
 from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from graphface.ablation.rounding import best, duration, rounded
 
 if TYPE_CHECKING:
     from graphface.ablation.running import Ablation
 
 _TIMES = ("alone ms", "swapped ms", "spent ms")
+_MEANINGS = {
+    "alone": "time of all its nodes, when nothing is memoized",
+    "swapped nodes": "time of the nodes whose operator or parameters are not the same in every variant",
+    "spent here": "time that it took in this run, after what earlier variants had left",
+    "shared nodes": "how many nodes another variant had computed already",
+}
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column for people.
+
+    Attributes:
+        title: its heading. meaning: in a sentence. texts: by variant. best: the variants that are best in it.
+    """
+
+    title: str
+    texts: Sequence[str]
+    meaning: str = ""
+    best: frozenset[int] = frozenset()
 
 
 def columns(ablation: Ablation) -> list[str]:
@@ -38,6 +62,29 @@ def rows(ablation: Ablation) -> list[dict[str, str | float | int]]:
     return made
 
 
+def shown_columns(ablation: Ablation) -> list[Column]:
+    """The table for people: rounded, the best of each column known where its metric says what is better."""
+    table = rows(ablation)
+    metrics = {metric.name: metric for metric in ablation.metrics}
+    shown = [Column("variant", [str(row["variant"]) for row in table])]
+    for name in columns(ablation)[1 : -len(_TIMES) - 2]:
+        values = _values(table, name)
+        better, unit = (metrics[name].better, metrics[name].unit) if name in metrics else (None, "")
+        texts = rounded(values, unit)
+        meaning = f"{better} is better" if better else ""
+        shown.append(Column(name, texts, meaning, _said_best(best(values, better), texts)))
+    for name, title in zip(_TIMES, ("alone", "swapped nodes", "spent here"), strict=True):
+        values = _values(table, name)
+        texts = ["" if v is None else duration(v / 1e3) for v in values]
+        # what was spent here depends on the order of the variants: none of them is the best at that
+        winners = best(values, "lower" if title != "spent here" else None)
+        shown.append(Column(title, texts, _MEANINGS[title], _said_best(winners, texts)))
+    shown.append(Column("shared nodes", [str(row.get("shared nodes", "")) for row in table], _MEANINGS["shared nodes"]))
+    if any(row["failed"] for row in table):
+        shown.append(Column("failed", [str(row["failed"]) for row in table], "cases that gave no output"))
+    return shown
+
+
 def as_csv(ablation: Ablation) -> str:
     """Full precision, one header line."""
     text = io.StringIO()
@@ -48,13 +95,24 @@ def as_csv(ablation: Ablation) -> str:
 
 
 def as_markdown(ablation: Ablation) -> str:
-    """A table that a README takes as it is, with the sentence on sharing under it."""
-    names = columns(ablation)
-    lines = ["| " + " | ".join(names) + " |", "|" + "|".join([" --- "] + [" ---: "] * (len(names) - 1)) + "|"]
-    for row in rows(ablation):
-        lines.append("| " + " | ".join(shown(row.get(name, "")) for name in names) + " |")
+    """A table that a README takes as it is, the best in bold, with the sentence on sharing under it."""
+    shown = shown_columns(ablation)
+    lines = [_line([c.title for c in shown]), "|" + "|".join([" --- "] + [" ---: "] * (len(shown) - 1)) + "|"]
+    for place in range(len(ablation.variants)):
+        lines.append(_line([f"**{c.texts[place]}**" if place in c.best else c.texts[place] for c in shown]))
     return "\n".join([*lines, "", f"{ablation.sharing}.", ""])
 
 
-def shown(value: str | float | int) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+def _line(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def _values(table: Sequence[dict[str, str | float | int]], name: str) -> list[float | None]:
+    return [float(row[name]) if name in row else None for row in table]
+
+
+def _said_best(places: set[int], texts: Sequence[str]) -> frozenset[int]:
+    """The best, and those that read the same; none where all do."""
+    said = {texts[place] for place in places}
+    alike = frozenset(place for place, text in enumerate(texts) if text in said)
+    return alike if len(alike) < len([t for t in texts if t]) else frozenset()

@@ -17,7 +17,7 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from graphface.cli import ablate, assets, cache, draw, explain, new, nodes, plan, replay, run, schema, show
+from graphface.cli import ablate, assets, cache, diff, draw, explain, new, nodes, plan, replay, run, schema, show
 from graphface.cli.messages import message
 from graphface.packs import load_entry_point
 
@@ -38,6 +38,7 @@ def build() -> TyperGroup:
     app.command("run")(run.run)
     app.command("plan")(plan.plan)
     app.command("explain")(explain.explain)
+    app.command("diff")(diff.diff)
     app.command("ablate")(ablate.ablate)
     app.command("show")(show.show)
     app.command("draw")(draw.draw)

@@ -23,6 +23,7 @@ from graphface.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from graphface.ablation.pictures import Pictures
     from graphface.ablation.running import Ablation
     from graphface.facade import Graph
 
@@ -40,6 +41,11 @@ def ablate(
     ] = None,
     metric: Annotated[list[str], typer.Option(help="Figures wanted; all that fit by default.")] = [],  # noqa: B006
     one_at_a_time: Annotated[bool, typer.Option("--one-at-a-time", help="Vary one swap at a time.")] = False,
+    node: Annotated[
+        list[str],
+        typer.Option(metavar="NAME", help="A further node, or node.field, to show in the page, with its values."),
+    ] = [],  # noqa: B006
+    size: Annotated[int, typer.Option(min=64, max=4096, help="Pixels of an output's longer side in the page.")] = 640,
     crop: Annotated[str | None, typer.Option(metavar="X,Y,W,H", help="Window of the crops, in pixels.")] = None,
     sets: Sets = [],  # noqa: B006
     replaces: Replaces = [],  # noqa: B006
@@ -57,6 +63,7 @@ def ablate(
     """
     from graphface.ablation import ablate as run_ablation
     from graphface.ablation.figures import metrics_for
+    from graphface.ablation.pictures import Pictures
     from graphface.cache.memory import MemoryTier
     from graphface.cli.options import load_graph
     from graphface.document.flags import read_flag
@@ -70,14 +77,19 @@ def ablate(
     name = output or next(iter(base.outputs), "")
     declared = base.type_of(base.targets([name])[name])
     truths = [_truth(base, declared, case, truth) for case in cases] if truth is not None else []
+    base.targets(node)  # a name that is none is refused before anything runs
     make_folder(out)
     said: list[str] = []
+    evaluator = Evaluator(
+        memory=MemoryTier(memory_budget(memory)), disk=open_cache(cache, said, cache_size), threads=threads
+    )
+    pictures = Pictures(evaluator, name, truths=truths, nodes=node, size=size)
     loading = {
         "set": dict(read_flag(text, "--set") for text in sets),
         "replace": dict(text.split("=", 1) for text in replaces),
         "variants": variants,
         "profiles": profiles,
-        "plugins": plugins,
+        "registry": base.registry,  # plug-ins loaded again would be other code, and nothing of them shared
     }
     done = run_ablation(
         graph,
@@ -87,29 +99,32 @@ def ablate(
         truths=truths,
         metrics=metrics_for(declared, base.registry, metric) if truths else (),
         one_at_a_time=one_at_a_time,
-        evaluator=Evaluator(
-            memory=MemoryTier(memory_budget(memory)), disk=open_cache(cache, said, cache_size), threads=threads
-        ),
+        evaluator=evaluator,
         loading=loading,
+        watcher=pictures,
     )
-    _show(done, out, box, said)
+    _show(done, pictures, out, box, said)
 
 
-def _show(done: Ablation, out: Path, box: tuple[int, int, int, int] | None, said: list[str]) -> None:
+def _show(
+    done: Ablation, pictures: Pictures, out: Path, box: tuple[int, int, int, int] | None, said: list[str]
+) -> None:
     """Write the table, the sheet and the page into the folder, and print the table and what went wrong."""
     from graphface.ablation.page import write_page
     from graphface.ablation.sheet import write_sheet
-    from graphface.ablation.table import as_csv, as_markdown, columns, rows, shown
+    from graphface.ablation.table import as_csv, as_markdown, shown_columns
     from graphface.report.terminal import print_table, print_warnings
 
     (out / "table.csv").write_text(as_csv(done), encoding="utf-8")
     (out / "table.md").write_text(as_markdown(done), encoding="utf-8")
     write_sheet(done, out / "sheet.png", crop=box)
-    write_page(done, out / "index.html")
-    names = columns(done)
-    header = ("variant", *(f">{name}" for name in names[1:]))
-    print_table(header, [tuple(shown(row.get(name, "")) for name in names) for row in rows(done)])
-    print(f"{done.sharing}\nwrote table.csv, table.md, sheet.png and index.html to {out}/")
+    write_page(done, pictures, out / "index.html")
+    columns = shown_columns(done)
+    header = ("variant", *(f">{column.title}" for column in columns[1:]))
+    marked = [[f"{text} *" if i in c.best else text for i, text in enumerate(c.texts)] for c in columns]
+    print_table(header, list(zip(*marked, strict=True)))
+    star = "* the best of its column; " if any(column.best for column in columns) else ""
+    print(f"{star}{done.sharing}\nwrote table.csv, table.md, sheet.png and index.html to {out}/")
     failures = [f"{c.variant.name}: {c.failure}" for c in done.cells if c.failure]
     print_warnings([*failures, *dict.fromkeys(w for c in done.cells for w in c.warnings), *said])
 

@@ -10,6 +10,7 @@ import typer
 if TYPE_CHECKING:
     from graphface.cache.disk import DiskTier
     from graphface.facade import Graph
+    from graphface.registry import Registry
 
 GraphName = Annotated[
     str, typer.Argument(metavar="GRAPH", help="A graph file, or the name of a shipped one (relight).")
@@ -54,8 +55,12 @@ def load_graph(
     variants: list[str],
     profiles: list[str],
     plugins: list[Path],
+    registry: Registry | None = None,
 ) -> Graph:
     """The graph with everything that the flags say.
+
+    Args:
+        registry: where names are looked up, under those of the plug-ins; everything installed by default.
 
     Raises:
         DocumentError, UnreadableFile, PluginError: see `graphface.load`.
@@ -70,6 +75,7 @@ def load_graph(
         variants=variants,
         profiles=profiles,
         plugins=plugins,
+        registry=registry,
     )
 
 

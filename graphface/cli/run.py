@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -30,11 +28,10 @@ from graphface.cli.options import (
 from graphface.report import picture_size
 
 if TYPE_CHECKING:
-    from graphface.cli.following import Follower
-    from graphface.evaluate.evaluator import Evaluator
-    from graphface.evaluate.observe import Observer
-    from graphface.facade import Graph
     from graphface.record import Record
+
+
+_INSIDE = "Seeing inside"
 
 
 def run(
@@ -59,25 +56,51 @@ def run(
     cache: Cache = None,
     cache_size: CacheSize = None,
     memory: Memory = None,
-    trace: Annotated[Path | None, typer.Option(metavar="run.json", help="Write what happened at every node.")] = None,
+    trace: Annotated[
+        Path | None,
+        typer.Option(metavar="run.json", help="Write what happened at every node.", rich_help_panel=_INSIDE),
+    ] = None,
     peaks: Annotated[
-        bool, typer.Option("--peaks", help="Measure each node's peak of memory for --trace: one thread, slower.")
+        bool,
+        typer.Option(
+            "--peaks",
+            help="Measure each node's peak of memory for --trace: one thread, slower.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = False,
     pins: Pins = [],  # noqa: B006
     breaks: Annotated[
         list[str],
-        typer.Option("--break", metavar="NODE[:after]", help="Stop before or after this node and ask what to do."),
+        typer.Option(
+            "--break",
+            metavar="NODE[:after]",
+            help="Stop before or after this node and ask what to do.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = [],  # noqa: B006
     save_failure: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.zip", help="Keep what a failing node was given, for graphface replay."),
+        typer.Option(
+            metavar="FILE.zip",
+            help="Keep what a failing node was given, for graphface replay.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = None,
     watch: Annotated[
-        bool, typer.Option("--watch", help="Run again whenever a file changes: graph, input, plug-in, operator.")
+        bool,
+        typer.Option(
+            "--watch",
+            help="Run again whenever a file changes: graph, input, plug-in, operator.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = False,
     report: Annotated[
         Path | None,
-        typer.Option(metavar="run.html", help="Write a page with a picture of every value, also where the run fails."),
+        typer.Option(
+            metavar="run.html",
+            help="Write a page with a picture of every value, also where the run fails.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = None,
     report_size: Annotated[
         int,
@@ -86,12 +109,20 @@ def run(
             min=picture_size.SMALLEST,
             max=picture_size.LARGEST,
             help="The longer side of the report's pictures.",
+            rich_help_panel=_INSIDE,
         ),
     ] = picture_size.DEFAULT,
     dump: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Write every value of the run: a picture, and .npz without loss.")
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Write every value of the run: a picture, and .npz without loss.",
+            rich_help_panel=_INSIDE,
+        ),
     ] = None,
-    times: Annotated[bool, typer.Option("--times", help="Show the time of every node.")] = False,
+    times: Annotated[
+        bool, typer.Option("--times", help="Show the time of every node.", rich_help_panel=_INSIDE)
+    ] = False,
     maps: Annotated[
         list[str],
         typer.Option(
@@ -106,6 +137,8 @@ def run(
 
     from graphface.cache.memory import MemoryTier
     from graphface.cli.beside import Beside
+    from graphface.cli.run_map import run_map
+    from graphface.cli.run_once import run_once
     from graphface.cli.stopping import stopping_at
     from graphface.cli.watch import watch_run
     from graphface.evaluate.evaluator import Evaluator
@@ -157,151 +190,3 @@ def _check_options(
         raise UsageError("--break stops one run; leave it out with --watch")
     if memory is not None and not (maps or breaks or watch):
         raise UsageError("--memory is what is kept from one run of --map or --watch to the next; one run keeps nothing")
-
-
-def run_once(
-    graph: Graph,
-    output: list[str],
-    given: dict[str, str],
-    evaluator: Evaluator,
-    followers: Sequence[Follower],
-    *,
-    history: Path | None,
-    pinned: dict[str, Any] | None = None,
-    observers: Sequence[Observer] = (),
-    quiet: bool = False,
-) -> list[Record]:
-    """One run, its outputs written when all of them are there; what became of every node.
-
-    Args:
-        followers: what is written beside the outputs, also where the run fails.
-        history: the cache folder, beside which the run is remembered.
-        pinned: values that stand in for nodes. observers: further ones. quiet: show no progress.
-    """
-    from graphface.cli.following import written
-    from graphface.cli.output import OutputFiles
-    from graphface.report.history import History, Remember
-    from graphface.report.terminal import ProgressBar
-
-    files = output_files(graph, output, given)
-    asked = graph.request(given, files, pinned=pinned)
-    outputs = OutputFiles(graph, asked.targets, evaluator)
-    outputs.check(files)
-    _check_kept(files.values(), [*given.values(), *(pinned or {}).values()])
-    with ProgressBar(silent=quiet) as bar, written(followers):
-        watching: list[Observer] = [bar, *followers, *observers, *outputs.observers(files)]
-        if evaluator.disk is not None:
-            watching.append(Remember(History.beside(history), evaluator.disk))
-        result = evaluator.run(asked, watching)
-    outputs.write(result, files)
-    return result.records
-
-
-def run_map(
-    graph: Graph, output: list[str], given: dict[str, str], maps: list[str], evaluator: Evaluator, records: list[Record]
-) -> None:
-    """Every combination of the mapped files, one evaluator for all of them; each output as soon as it is there.
-
-    Args:
-        evaluator: gets a progress bar. records: gets what became of every node, also where some combinations fail.
-
-    Raises:
-        UsageError: two combinations would write the same file. MapFailed: some failed; the others are written.
-    """
-    from graphface.cli.output import OutputFiles
-    from graphface.evaluate.mapping import MapFailed, read_maps, run_over
-    from graphface.report.terminal import ProgressBar
-
-    over = read_maps(maps)
-    _check_distinct(graph, output, given, over)
-    graph.bind(given)  # what all combinations share is refused once, before any runs
-    first = output_files(graph, output, {**given, **{name: files[0] for name, files in over.items()}})
-    targets = graph.targets(first)
-    outputs = OutputFiles(graph, targets, evaluator)
-    outputs.check(first)
-    failed, total = [], 0
-    with ProgressBar() as bar:
-        evaluator.observers = (bar, *outputs.observers(first))
-        for made in run_over(graph, evaluator, over, given, targets):
-            total += 1
-            if made.result is None:
-                failed.append(made)
-                continue
-            outputs.write(made.result, output_files(graph, output, made.inputs))
-            records += made.result.records
-    if failed:
-        raise MapFailed(failed, total)
-
-
-def _check_distinct(graph: Graph, output: list[str], given: dict[str, str], over: dict[str, list[str]]) -> None:
-    """Refuse before anything runs what would write a file twice or into a folder that is not there."""
-    import itertools
-
-    from graphface.errors import UsageError
-    from graphface.values.writing import check_folder
-
-    seen: dict[Path, tuple[str, ...]] = {}
-    for values in itertools.product(*over.values()):
-        for path in output_files(graph, output, {**given, **dict(zip(over, values, strict=True))}).values():
-            if path in seen:
-                places = " ".join("{" + name + "}" for name in over)
-                raise UsageError(
-                    f"{path}: would be written for {', '.join(seen[path])} and for {', '.join(values)}; "
-                    f"name the mapped inputs in -o ({places}), and give their files different names"
-                )
-            seen[path] = values
-    _check_kept(seen, itertools.chain(given.values(), *over.values()))
-    for folder in {path.parent for path in seen}:
-        check_folder(folder / "result")
-
-
-def _check_kept(results: Iterable[Path], given: Iterable[str]) -> None:
-    """Refuse before anything runs to write a result over a file that was given."""
-    import os
-
-    from graphface.errors import UsageError
-
-    kept = {os.path.realpath(file) for file in given}
-    for path in results:
-        if os.path.realpath(path) in kept:
-            raise UsageError(f"-o {path}: this file is an input, and would be lost; give the result another name")
-
-
-def output_files(graph: Graph, asked: list[str], given: dict[str, str]) -> dict[str, Path]:
-    """Output name to file; a bare FILE is the graph's first output.
-
-    {photo} in a file name stands for the name of the file given for input `photo`, without folder and suffix.
-
-    Raises:
-        UsageError: no output was asked for, one twice, or a file name says {something} that is no input given.
-    """
-    from graphface.errors import UsageError
-
-    if not asked:
-        raise UsageError(f"no output asked for; add -o FILE, or -o NAME=FILE (outputs: {', '.join(graph.outputs)})")
-    files: dict[str, Path] = {}
-    for text in asked:
-        name, equals, file = text.partition("=")
-        if not equals:
-            if not graph.outputs:
-                raise UsageError(f"-o {text}: the graph declares no output; say -o NODE={text}")
-            name, file = next(iter(graph.outputs)), text
-        if not name or not file:
-            raise UsageError(f"-o {text!r}: expected FILE or NAME=FILE")
-        if name in files:
-            raise UsageError(f"-o {text}: output {name!r} is asked for twice")
-        files[name] = Path(_filled(file, given))
-    return files
-
-
-def _filled(template: str, given: dict[str, str]) -> str:
-    """A file name with its {input} places filled; what is put in never holds a separator, so it stays in its folder."""
-    from graphface.errors import UsageError
-
-    def stem(match: re.Match[str]) -> str:
-        name = match.group(1)
-        if name not in given:
-            raise UsageError(f"-o {template}: no input {name!r} was given (given: {', '.join(given) or 'none'})")
-        return re.sub(r"[^\w.-]", "_", Path(given[name]).stem).lstrip(".") or "_"
-
-    return re.sub(r"\{([^{}]*)\}", stem, template)

@@ -59,7 +59,7 @@ class Blobs:
         packed = self._pack(data) if data is not None else None
         if packed is None or data is None:
             return Sheet(label, declared, picture.note, width, height, image)
-        planes = tuple(self._add(plane) for plane in packed.planes)
+        planes = tuple(self.add(plane) for plane in packed.planes)
         full = picture.full or (data.shape[0], data.shape[1])
         return Sheet(label, declared, picture.note, width, height, image, packed, planes, picture.channels, full)
 
@@ -70,7 +70,7 @@ class Blobs:
 
             stream = BytesIO()
             Image.fromarray(pixels).save(stream, "WEBP", quality=QUALITY, method=METHOD)
-            self._images[digest] = self._add(stream.getvalue())
+            self._images[digest] = self.add(stream.getvalue())
         return self._images[digest]
 
     def _pack(self, data: NDArray[Any]) -> Packed | None:
@@ -79,7 +79,8 @@ class Blobs:
             self._packed[digest] = pack(data)
         return self._packed[digest]
 
-    def _add(self, content: bytes) -> int:
+    def add(self, content: bytes) -> int:
+        """The index of a content, which is stored where it is new."""
         digest = blake2b(content, digest_size=16).digest()
         if digest not in self._known:
             self._known[digest] = len(self.contents)

@@ -17,7 +17,8 @@ from graphface.evaluate.reason import NO_REASON, Reason
 from graphface.graph.request import Request
 from graphface.graph.structure import Step
 from graphface.record import Record, State
-from graphface.report.history import PINNED, History, Identity, identities
+from graphface.report.changes import changes
+from graphface.report.history import History, Identity, identities
 from graphface.values.frozen import arrays_in
 
 
@@ -139,20 +140,7 @@ def _why(before: Identity | None, now: Identity, changed: set[str], pinned: set[
         return Reason("first seen")
     if before.key == now.key:
         return _lost(before, evaluator)
-    if before.operator == PINNED:
-        return Reason("unpinned")
-    if before.operator != now.operator:
-        return Reason("operator", old=before.operator, new=now.operator)
-    if before.code != now.code:
-        return Reason("code")
-    for name in {**before.parameters, **now.parameters}:
-        old, new = before.parameters.get(name), now.parameters.get(name)
-        if old != new:
-            return Reason("parameter", parameter=name, old=str(old), new=str(new))
-    for port in {**before.inputs, **now.inputs}:
-        if before.inputs.get(port) != now.inputs.get(port):
-            return _input_change(port, before.inputs.get(port, []), now.inputs.get(port, []), changed, pinned)
-    return Reason("lazy ports")
+    return next(changes(before, now, changed, pinned), Reason("lazy ports"))
 
 
 def _lost(before: Identity, evaluator: Evaluator) -> Reason:
@@ -164,15 +152,3 @@ def _lost(before: Identity, evaluator: Evaluator) -> Reason:
     if evicted or (evaluator.disk is not None and before.stored):
         return Reason("evicted")
     return Reason("not kept")
-
-
-def _input_change(
-    port: str, before: list[list[str]], now: list[list[str]], changed: set[str], pinned: set[str]
-) -> Reason:
-    there, here = [name for name, _ in before], [name for name, _ in now]
-    if there != here:
-        return Reason("wiring", port=port, old=", ".join(there) or "nothing", new=", ".join(here) or "nothing")
-    culprit = next(name for (name, new), (_, old) in zip(now, before, strict=True) if new != old).partition(".")[0]
-    if culprit in pinned:
-        return Reason("pinned above", node=culprit)
-    return Reason("node above" if culprit in changed else "input", node=culprit, port=port)

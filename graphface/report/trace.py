@@ -114,7 +114,7 @@ class Trace(Observer):
             "bytes": record.bytes,
             "peak_bytes": self.peaks.get(record.name),
             "thread": self.threads.get(record.name),
-            "parameters": _jsonable(self.parameters.get(record.name, {})),
+            "parameters": jsonable(self.parameters.get(record.name, {})),
             "value": self.summaries.get(record.name),
             "reason": record.reason,
             "warnings": list(record.warnings),
@@ -122,16 +122,22 @@ class Trace(Observer):
 
 
 def _origins(given: Iterable[Bound | None]) -> dict[str, Any]:
-    return {b.name: {"origin": b.origin, "digest": b.digest.hex()} for b in given if b is not None}
+    return {bound.name: _origin(bound) for bound in given if bound is not None}
 
 
-def _jsonable(value: Any) -> Any:
+def _origin(bound: Bound) -> dict[str, Any]:
+    """Where an input came from; of a number or text also what it was, since no file tells."""
+    told: dict[str, Any] = {"origin": bound.origin, "digest": bound.digest.hex()}
+    return told | {"value": jsonable(bound.number)} if bound.is_number else told
+
+
+def jsonable(value: Any) -> Any:
     """A parameter as strict JSON has it; what JSON does not know (infinity, a path) is its `repr`."""
     rule = rule_of(type(value))
     if rule is NUMBERED:
-        return [_jsonable(item) for item in value]
+        return [jsonable(item) for item in value]
     if rule is not None:
-        return {str(label): _jsonable(part) for label, part in rule.items(value)}
+        return {str(label): jsonable(part) for label, part in rule.items(value)}
     known = type(value) in (str, int, bool, type(None)) or (type(value) is float and math.isfinite(value))
     return value if known else repr(value)
 

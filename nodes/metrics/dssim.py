@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from graphface import node
+from typing import Annotated
+
+from graphface import Figure, node
 from graphface.nodes.metrics.comparison import Comparable
 from graphface.nodes.metrics.ssim import ssim
 from graphface.nodes.types import Mask
 
 
 @node("metrics.dssim")
-def dssim(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
+def dssim(result: Comparable, truth: Comparable, mask: Mask | None = None) -> Annotated[float, Figure("lower")]:
     """Structural dissimilarity, (1 - SSIM) / 2, 0 to 1; lower is better.
 
     Args:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.types import Mask
 
 _LEAST_UNION = 1e-12
 
 
 @node("metrics.iou")
-def iou(result: Mask, truth: Mask) -> float:
+def iou(result: Mask, truth: Mask) -> Annotated[float, Figure("higher")]:
     """Intersection over union of soft masks; higher is better.
 
     The sum of the minima over the sum of the maxima; 1 where both masks are empty.

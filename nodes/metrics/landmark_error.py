@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.types import Landmarks
 
 
 @node("metrics.landmark_error")
-def landmark_error(result: Landmarks, truth: Landmarks) -> float:
+def landmark_error(result: Landmarks, truth: Landmarks) -> Annotated[float, Figure("lower")]:
     """Mean distance over the inter-ocular distance; lower is better.
 
     Distances are those in the picture (x and y), the inter-ocular distance is the truth's.

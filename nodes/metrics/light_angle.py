@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.types import Direction
 
 _LEAST_LENGTH = 1e-12
 
 
 @node("metrics.light_angle")
-def light_angle(result: Direction, truth: Direction) -> float:
+def light_angle(result: Direction, truth: Direction) -> Annotated[float, Figure("lower", unit="°")]:
     """Angle between two light directions in degrees; lower is better.
 
     A zero vector has no direction; its angle to any other is 90.

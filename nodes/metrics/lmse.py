@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.metrics.comparison import LEAST_ERROR, Comparable, comparable_arrays, with_channel_axis
 from graphface.nodes.types import Mask
 
@@ -13,7 +15,7 @@ _WINDOW = 20
 
 
 @node("metrics.lmse")
-def lmse(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
+def lmse(result: Comparable, truth: Comparable, mask: Mask | None = None) -> Annotated[float, Figure("lower")]:
     """Local mean squared error: `si_mse` summed over half-overlapping windows, each with its own gain; lower is better.
 
     Grosse, Johnson, Adelson, Freeman, Ground Truth Dataset and Baseline Evaluations for Intrinsic Image Algorithms,

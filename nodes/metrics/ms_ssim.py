@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.metrics.comparison import Comparable, comparable_arrays, with_channel_axis
 from graphface.nodes.metrics.ssim import ssim_terms
 from graphface.nodes.types import Mask
@@ -18,7 +20,7 @@ _WINDOW = 11
 
 
 @node("metrics.ms_ssim")
-def ms_ssim(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
+def ms_ssim(result: Comparable, truth: Comparable, mask: Mask | None = None) -> Annotated[float, Figure("higher")]:
     """Multi-scale structural similarity (Wang et al. 2003), at most 1; higher is better.
 
     Wang, Simoncelli, Bovik, Multi-Scale Structural Similarity for Image Quality Assessment, Asilomar 2003, equation 7:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.types import Mask, Normals
 
 _LEAST_LENGTH = 1e-12
 
 
 @node("metrics.normal_angle")
-def normal_angle(result: Normals, truth: Normals, mask: Mask | None = None) -> float:
+def normal_angle(
+    result: Normals, truth: Normals, mask: Mask | None = None
+) -> Annotated[float, Figure("lower", unit="°")]:
     """Mean angle between normals in degrees; lower is better.
 
     Args:

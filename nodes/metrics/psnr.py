@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.metrics.comparison import Comparable, comparable_arrays, decibels, masked_mean
 from graphface.nodes.types import Mask
 
 
 @node("metrics.psnr")
-def psnr(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
+def psnr(
+    result: Comparable, truth: Comparable, mask: Mask | None = None
+) -> Annotated[float, Figure("higher", unit="dB")]:
     """PSNR in dB, at most 120; higher is better.
 
     Args:

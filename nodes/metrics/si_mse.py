@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.metrics.comparison import LEAST_ERROR, Comparable, comparable_arrays, masked_mean
 from graphface.nodes.types import Mask
 
 
 @node("metrics.si_mse")
-def si_mse(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
+def si_mse(result: Comparable, truth: Comparable, mask: Mask | None = None) -> Annotated[float, Figure("lower")]:
     """Squared error after the best gain over the mean square of the truth; lower is better.
 
     0 is the truth, 1 is as bad as black.

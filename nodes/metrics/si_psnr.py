@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.metrics.comparison import LEAST_ERROR, Comparable, comparable_arrays, decibels, masked_mean
 from graphface.nodes.types import Mask
 
 
 @node("metrics.si_psnr")
-def si_psnr(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
+def si_psnr(
+    result: Comparable, truth: Comparable, mask: Mask | None = None
+) -> Annotated[float, Figure("higher", unit="dB")]:
     """PSNR in dB after the gain on the result that minimizes the error, so exposure does not count; higher is better.
 
     Args:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.metrics.comparison import Comparable, comparable_arrays, masked_mean, with_channel_axis
 from graphface.nodes.types import Mask
 
@@ -18,7 +20,7 @@ _SIGMA = 1.5
 
 
 @node("metrics.ssim")
-def ssim(result: Comparable, truth: Comparable, mask: Mask | None = None) -> float:
+def ssim(result: Comparable, truth: Comparable, mask: Mask | None = None) -> Annotated[float, Figure("higher")]:
     """Structural similarity (Wang et al. 2004), at most 1; higher is better.
 
     Wang, Bovik, Sheikh, Simoncelli, Image Quality Assessment: From Error Visibility to Structural Similarity, TIP 2004,

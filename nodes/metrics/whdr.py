@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from graphface import node
+from graphface import Figure, node
 from graphface.nodes.color import channel_mean
 from graphface.nodes.types import Albedo, FloatArray, Judgements
 
@@ -15,7 +15,9 @@ _LEAST = 1e-10
 
 
 @node("metrics.whdr")
-def whdr(albedo: Albedo, judgements: Judgements, *, delta: Annotated[float, Field(gt=0, le=1)] = 0.1) -> float:
+def whdr(
+    albedo: Albedo, judgements: Judgements, *, delta: Annotated[float, Field(gt=0, le=1)] = 0.1
+) -> Annotated[float, Figure("lower")]:
     """Weighted human disagreement rate (Bell, Bala, Snavely 2014), 0 to 1; lower is better.
 
     Intrinsic Images in the Wild, SIGGRAPH 2014: how often the albedo contradicts which of two points people found

@@ -24,6 +24,8 @@ from graphface.values.picture import Picture, View
 _ANGLES = (0.0, 45.0, 90.0)
 _WIDTH = 900
 """Pixels of the three views together, where the view does not say."""
+_FINER = 2
+"""Drawn this much larger and then reduced, so that edges are smooth."""
 _LIGHT = np.array([-0.4, 0.5, 0.77], np.float32)
 _NOTE = "as the camera sees it, and turned by 45 and 90 degrees"
 
@@ -73,9 +75,10 @@ def _three_views(mesh: Mesh, view: View, drawn: DrawnMesh, note: str) -> Picture
     middle = (mesh.vertices.min(axis=0) + mesh.vertices.max(axis=0)) / 2
     reach = float(np.linalg.norm(mesh.vertices - middle, axis=1).max()) * 2.05
     height = min(2 * side, max(side // 3, int(side * float(np.ptp(mesh.vertices[:, 1])) * 1.1 / reach)))
-    size = (height, side)
-    views = [drawn(_turned(mesh, middle, side / reach, size, angle), size) for angle in _ANGLES]
-    return Picture(np.concatenate(views, axis=1), note)
+    size = (_FINER * height, _FINER * side)
+    views = [drawn(_turned(mesh, middle, _FINER * side / reach, size, angle), size) for angle in _ANGLES]
+    pixels = cv2.resize(np.concatenate(views, axis=1), (side * len(views), height), interpolation=cv2.INTER_AREA)
+    return Picture(np.asarray(pixels), note)
 
 
 def _turned(mesh: Mesh, middle: FloatArray, scale: float, size: tuple[int, int], angle: float) -> Mesh:

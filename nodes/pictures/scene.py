@@ -18,7 +18,7 @@ from graphface.values.picture import Picture, View
 
 _SIDE = 720
 _PAPER, _INK, _FAINT, _HEAD = (32, 34, 40), (226, 226, 230), (96, 100, 110), (150, 140, 132)
-_MOST = 14
+_MOST = 21
 """Lines of text; more lights than that are drawn and not named."""
 _NEAR = 2.0
 """Distance, in inter-ocular distances, that is drawn half way to the rim."""
@@ -28,7 +28,7 @@ def draw_scene(scene: Scene, view: View) -> Picture:
     """Two plans and a ball, and every light in words. Distances are shortened the more the farther out they are."""
     size = max(96, min(view.size or _SIDE, 1200))
     side, ball = size // 2, size // 4
-    letters = max(8, min(20, size // 30))
+    letters = max(8, min(20, size // 32))
     lines = _lines(scene)[:_MOST]
     canvas = Image.new("RGB", (size, side + max(ball + 4, letters * 3 // 2 * len(lines) + letters)), _PAPER)
     pen = ImageDraw.Draw(canvas)
@@ -146,21 +146,23 @@ def _irradiance(light: Any, normals: NDArray[Any]) -> NDArray[Any]:
 
 
 def _lines(scene: Scene) -> list[tuple[str, Any]]:
-    """The scene and its lights in a line each, with the color of the lamp."""
+    """The scene in a line, and each of its lights in two, with the color of the lamp before the first."""
     ambient = scene.ambient if isinstance(scene.ambient, tuple) else (scene.ambient,)
     words = f"{scene.mode}, ambient {' '.join(f'{value:.3g}' for value in ambient)}"
     words += f", exposure {scene.exposure:.3g}" if scene.exposure != 1 else ""
     lines: list[tuple[str, Any]] = [(words, None)]
     for number, light in enumerate(scene.lights):
-        lines.append((f"{number + 1} {light.type} {light.intensity:.3g}{_details(light)}", lamp_color(light)))
+        casts = "" if isinstance(light, HarmonicLight | EnvironmentLight) else f", shadow {light.shadow}"
+        lines.append((f"{number + 1} {light.type} {light.intensity:.3g}{casts}", lamp_color(light)))
+        lines.append((_where(light), None))
     return lines
 
 
-def _details(light: Any) -> str:
+def _where(light: Any) -> str:
     if isinstance(light, HarmonicLight):
-        return f", {light.preset}" if light.preset else f", {len(light.values)} coefficients"
+        return light.preset or f"{len(light.values)} coefficients"
     if isinstance(light, EnvironmentLight):
-        return f", panorama turned by {light.azimuth:.0f}"
+        return f"panorama turned by {light.azimuth:.0f}"
     place = light.towards if isinstance(light, DirectionalLight) else light.place
     x, y, z = (float(value) for value in place)
     distance = float(np.linalg.norm(place))
@@ -168,4 +170,4 @@ def _details(light: Any) -> str:
     elevation = np.degrees(np.arcsin(np.clip(y / max(distance, 1e-6), -1, 1)))
     away = "" if isinstance(light, DirectionalLight) else f", distance {distance:.3g}"
     cone = f", cone {light.cone:.0f}" if isinstance(light, SpotLight) else ""
-    return f", azimuth {azimuth:.0f}, elevation {elevation:.0f}{away}{cone}, shadow {light.shadow}"
+    return f"azimuth {azimuth:.0f}, elevation {elevation:.0f}{away}{cone}"

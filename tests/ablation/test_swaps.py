@@ -76,3 +76,33 @@ class TestVariants:
         """Overlays that the graph declares are values too."""
         (made,) = variants(read_swaps(["variant=loud"], graph))
         assert made.variants == ("loud",)
+
+
+class TestAll:
+    def test_of_a_family(self, graph):
+        """The node's own operator first, then all that fit; each once."""
+        (swap,) = read_swaps(["second=all"], graph)
+        assert swap.values[0] == "toy.add"
+        assert {"toy.subtract", "toy.fail"} < set(swap.values)
+        assert "toy.grid" not in swap.values
+        assert read_swaps(["second=subtract,all"], graph)[0].values[0] == "toy.subtract"
+
+    def test_of_variants_and_profiles(self, graph):
+        """None of them, then each that is declared."""
+        made = variants(read_swaps(["variant=all"], graph))
+        assert [(v.name, v.variants) for v in made] == [("variant=none", ()), ("variant=loud", ("loud",))]
+        assert [v.profiles for v in variants(read_swaps(["profile=all"], graph))] == [()]
+
+    def test_none_can_be_declared(self, registry):
+        """A variant of that name is that variant."""
+        declared = load({**GRAPH, "variants": {"none": {"first": {"with": {"plus": 0}}}}}, registry=registry)
+        assert [v.variants for v in variants(read_swaps(["variant=none"], declared))] == [("none",)]
+
+    def test_of_choices(self, registry):
+        """The choices of a parameter, and both of a flag; numbers have to be named."""
+        nodes = {"n": {"use": "toy.nested"}, "p": {"use": "toy.pair", "in": {"grid": "g"}}, "g": {"use": "toy.grid"}}
+        chosen = load({"graphface": 1, "nodes": nodes, "outputs": {"y": "n", "z": "p"}}, registry=registry)
+        assert read_swaps(["n.mode=all"], chosen)[0].values == ("hard", "soft")
+        assert read_swaps(["p.both=all"], chosen)[0].values == (False, True)
+        with pytest.raises(UsageError, match="name its values"):
+            read_swaps(["g.size=all"], chosen)

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphface import DocumentError, Graph, Registry, UnreadableFile, UsageError, load
-from graphface.cli.run import output_files
+from graphface.cli.output_names import output_files
 from graphface.nodes.io.image_write import write_image
 from graphface.nodes.types import Image
 
