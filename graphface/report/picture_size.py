@@ -9,8 +9,8 @@ Measured with `tests/bench/report_cost.py` on photos of 1 megapixel, 4 : 5, on t
      320    +0.8 s, 3.9 MB     +2.0 s, 11.0 MB
      384    +1.0 s, 5.2 MB     +2.3 s, 14.9 MB
 
-A relight without a report takes 1.3 s, a makeup 2.8 s. At the default a makeup of two square photos stays below 8 MB: it
-takes 7.5 MB, at 240 pixels 8.3 and at 256 pixels 8.9.
+Without a report a relight takes 1.3 s, a makeup 2.8 s. At the default a makeup of two square photos stays below 8 MB:
+7.5 MB, at 240 pixels 8.3 and at 256 pixels 8.9.
 """
 
 DEFAULT = 224
