@@ -1,6 +1,6 @@
 """What a report costs a run: seconds of CPU, bytes of the page and how they change with the size of its pictures.
 
-    python tests/bench/report_cost.py PHOTO [--reference PHOTO] [--sizes 192 256 320 384] [--rounds 3]
+    python tests/bench/report_cost.py PHOTO [--reference PHOTO] [--sizes 192 224 256 320] [--rounds 3]
 
 Runs relight, and makeup where a reference is given, in one process: without a report and with one in turn, nothing
 memoized, on one thread. CPU time of the process, best of the rounds (other load on the machine matters less). The photo
@@ -47,7 +47,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("photo", type=Path)
     parser.add_argument("--reference", type=Path)
-    parser.add_argument("--sizes", type=int, nargs="+", default=[192, 256, 320, 384])
+    parser.add_argument("--sizes", type=int, nargs="+", default=[192, 224, 256, 320, 384])
     parser.add_argument("--rounds", type=int, default=3)
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
