@@ -1,8 +1,8 @@
 """The layered layout with frames."""
 
 import pytest
-from drawn import Nested, check, nested
 from hypothesis import given, settings
+from nested_boxes import Nested, check, nested
 
 from graphface import DocumentError, load
 from graphface.registry import default_registry
