@@ -71,8 +71,8 @@ def read_sides(texts: Sequence[str], common: Flags) -> list[Given]:
 def bound_inputs(sides: list[Given], common: list[str]) -> list[dict[str, Any]]:
     """The inputs of every side: its own, those given for both, those of the run it comes from.
 
-    A graph takes what it needs and has not been given from the other side; from an earlier run all, its defaults too, so
-    that both are asked the same question.
+    A graph takes what it needs and has not been given from the other side. From an earlier run it takes all, with the
+    defaults of that run, so that both are asked the same question.
 
     Raises:
         UsageError: an input of an earlier run cannot be had again, or one is given that no side has.
