@@ -21,6 +21,7 @@ import numpy as np
 from graphface.cache.memory import MISSING
 from graphface.errors import NodeError, RunFailed
 from graphface.evaluate.observe import Observer
+from graphface.evaluate.reason import Reason
 from graphface.graph.request import Request
 from graphface.graph.structure import Ref, Step
 from graphface.pictures import draw
@@ -113,6 +114,8 @@ class Recorder(Observer):
         slot = self._slots[record.name]
         entry = self.seen[slot]
         entry.record, entry.reason = record, record.reason
+        if slot in self.request.pinned:
+            entry.reason = str(Reason("pinned", new=self.request.pinned[slot].origin))
         entry.start, entry.thread = self._started.get(record.name), self.trace.threads.get(record.name, "")
         if record.state in HAD and value is not MISSING:
             self._take(entry, value)
@@ -156,6 +159,7 @@ class Recorder(Observer):
             entry.reason = str(reasons.get(entry.slot, ""))
             if twin is not None:
                 entry.sheets, entry.arrays = twin.sheets, twin.arrays
+                entry.reason = entry.reason if twin.sheets else twin.reason
                 continue
             value = self.value_of(entry.slot)
             if value is not MISSING and value is not None:
@@ -165,6 +169,10 @@ class Recorder(Observer):
         """Draw and measure a value; afterwards nothing of it is held."""
         assert self.request is not None
         graph, slot = self.request.graph, entry.slot
+        if value is None:  # in words: a picture of nothing takes the place of what there is to see
+            entry.reason = "nothing was given" if self.request.step(slot) is None else "its value is None"
+            self.trace.summaries[graph.names[slot]] = "None"
+            return
         self._remember(slot, value)
         entry.arrays = [(path, found) for path, array in arrays_in(value) if (found := self._figures(array))]
         if entry.record is not None and entry.record.state != "ran":
@@ -196,7 +204,7 @@ class Recorder(Observer):
         value = held() if held is not None else None
         if value is not None:
             return value
-        step = self.request.graph.step(slot)
+        step = self.request.step(slot)
         if step is None:
             value = self._input(slot)
         else:
@@ -208,7 +216,7 @@ class Recorder(Observer):
 
     def _input(self, slot: int) -> Any:
         assert self.request is not None
-        bound = self.request.bound[slot]
+        bound = self.request.given(slot)
         try:
             return bound.value if bound is not None else MISSING
         except Exception:  # said by the run where it needs the input

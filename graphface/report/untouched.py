@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from graphface.evaluate.reason import Reason
+from graphface.evaluate.reason import Kind, Reason
 from graphface.graph.demand import refused
 from graphface.graph.request import Request
 from graphface.record import Record
@@ -33,14 +33,21 @@ def untouched(request: Request, records: Sequence[Record]) -> dict[int, Reason]:
 
 
 def _behind_memoized(request: Request, by_key: Mapping[bytes, Record], had: Iterable[int]) -> dict[int, Reason]:
-    """What memoized nodes would have needed."""
+    """What memoized and pinned nodes would have needed."""
     found: dict[int, Reason] = {}
     for slot in sorted(had, reverse=True):
         step = request.graph.step(slot)
-        if step is not None and by_key[request.key(slot)].state in ("memory", "disk"):
+        kind = _why_nothing_above(request, slot, by_key)
+        if step is not None and kind is not None:
             for above in (*step.eager, *step.lazy):
-                found.setdefault(above, Reason("memoized below", node=step.name))
+                found.setdefault(above, Reason(kind, node=step.name))
     return found
+
+
+def _why_nothing_above(request: Request, slot: int, by_key: Mapping[bytes, Record]) -> Kind | None:
+    if slot in request.pinned:
+        return "pinned below"
+    return "memoized below" if by_key[request.key(slot)].state in ("memory", "disk") else None
 
 
 def _behind_declined(request: Request, records: Sequence[Record], had: Iterable[int]) -> dict[int, Reason]:

@@ -71,9 +71,9 @@ class Watcher(Observer):
     def _stored(self, slot: int) -> Any:
         """A value from memory or disk; of an input, what was given, if it was a value or has been read already."""
         assert self.request is not None
-        step = self.request.graph.step(slot)
+        step = self.request.step(slot)
         if step is None:
-            bound = self.request.bound[slot]
+            bound = self.request.given(slot)
             return MISSING if bound is None else bound.value
         return self._evaluator.find(self.request.key(slot), step)[0]
 

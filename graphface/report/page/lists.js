@@ -1,6 +1,7 @@
 // The other views: all nodes as a table, the graph as YAML, what went in and what it ran on.
 
 const COLUMNS = [
+  ["#", (node) => REPORT.nodes.indexOf(node)], // as in the graph: each after what it depends on
   ["node", (node) => node.name],
   ["operator", (node) => node.operator || "input"],
   ["state", (node) => node.state],
@@ -10,7 +11,7 @@ const COLUMNS = [
 ];
 
 function setUpLists() {
-  nodeTable("node", false);
+  nodeTable("#", false);
   document.getElementById("view-yaml").append(element("pre", { class: "code" }, REPORT.yaml));
   const inputs = REPORT.inputs.map((one) =>
     element("tr", {}, element("th", { scope: "row" }, link(one.name)), ...[one.type, one.origin, one.digest].map((text) => element("td", {}, text))),
@@ -40,6 +41,7 @@ function nodeTable(by, down) {
     element(
       "tr",
       {},
+      element("td", { class: "number" }, REPORT.nodes.indexOf(node) + 1),
       element("th", { scope: "row" }, link(node.name, [thumbnailOnly(node), element("span", {}, node.name)], { class: "source" })),
       element("td", {}, node.operator || "input"),
       element("td", {}, badge(node), node.reason ? element("small", {}, ` ${node.reason}`) : null),
