@@ -23,6 +23,7 @@ from graphface.values.frozen import describe
 from graphface.values.parts import Named, rule_of
 from graphface.values.picture import View
 from graphface.values.port_types import ArrayType, Atom, ListOf, PortType
+from graphface.values.value_file import write_value
 from graphface.values.writing import beside, check_folder, check_output, write_output
 
 _SHORT = {"c": "continue", "n": "next", "q": "quit", "h": "help", "graph": "where", "EOF": "quit"}
@@ -154,12 +155,16 @@ class Prompt(cmd.Cmd):
             typer.launch(str(path))
 
     def do_save(self, arg: str) -> None:
-        """save NAME FILE: write a port, a field of one or value, as -o would."""
+        """save NAME FILE: write a port, a field of one or value: all of it to .npz, which replace reads; else as -o
+        would."""
         name, file = self._words("save", arg, 2, 2)
         value, declared = self._named(name)
         files = self._stop.request.graph.registry.files
         check_output(Path(file), declared, files)
-        write_output(value, declared, Path(file), files)
+        if Path(file).suffix == ".npz":
+            write_value(value, Path(file))
+        else:
+            write_output(value, declared, Path(file), files)
         self._say(f"wrote {file}")
 
     # --- going on ---------------------------------------------------------------------------------

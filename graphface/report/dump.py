@@ -1,7 +1,6 @@
 """Values of a run in a folder, to be looked at and compared: `run --dump`, `diff --golden`.
 
-A value is one .npz, readable by NumPy alone: its arrays under the names "0", "1", ..., and under "structure" what they
-are parts of, as JSON (`graphface.values.codec`). Nothing in it is code, and nothing is lost.
+A value is one .npz that loses nothing (`graphface.values.value_file`).
 
     face/mesh.npz    the value of node face/mesh
     face/mesh.png    its picture
@@ -11,14 +10,11 @@ are parts of, as JSON (`graphface.values.codec`). Nothing in it is code, and not
 from __future__ import annotations
 
 import json
-import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from graphface.errors import UnreadableFile, UnwritableFile, UsageError
+from graphface.errors import UnwritableFile, UsageError
 from graphface.evaluate.evaluator import Evaluator
 from graphface.fallback import python_warnings, warn
 from graphface.graph.request import Request
@@ -28,54 +24,12 @@ from graphface.record import Record
 from graphface.report.drawn import write_pixels
 from graphface.report.trace import Trace
 from graphface.report.watching import Watcher
-from graphface.values.codec import CodecError, decode, encode
+from graphface.values.codec import CodecError
 from graphface.values.picture import View
-from graphface.values.writing import beside, check_folder, make_folder
+from graphface.values.value_file import write_value
+from graphface.values.writing import check_folder, make_folder
 
 RUN = "run.json"
-STRUCTURE = "structure"
-"""The name of the entry that is no array of the value."""
-
-
-def write_value(value: Any, path: Path) -> None:
-    """Write a value, all of it, to an .npz; whole or not at all.
-
-    Raises:
-        UnwritableFile: some part of the value is of no kind that can be stored, or the folder refuses.
-    """
-    try:
-        tensors, structure = encode(value)
-    except CodecError as error:
-        raise UnwritableFile(path, str(error)) from None
-    words = np.array(json.dumps(structure, separators=(",", ":")))
-    try:
-        with beside(path) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as held:
-            for name, array in {STRUCTURE: words, **tensors}.items():
-                with held.open(f"{name}.npy", "w", force_zip64=True) as entry:
-                    np.lib.format.write_array(entry, array, allow_pickle=False)
-    except OSError as error:
-        raise UnwritableFile(path, error.strerror or str(error)) from None
-
-
-def read_value(path: Path, annotation: Any) -> Any:
-    """A value as `write_value` wrote it, its arrays read-only.
-
-    Args:
-        annotation: what its operator returns (`Operator.output_annotation`); only classes that it names are built.
-
-    Raises:
-        UnreadableFile: there is no such file, or it holds no value of that type.
-    """
-    try:
-        with np.load(path, allow_pickle=False) as held:
-            tensors = {name: held[name] for name in held.files}
-        structure = json.loads(str(tensors.pop(STRUCTURE)))
-        return decode(tensors, structure, annotation)
-    except FileNotFoundError:
-        raise UnreadableFile(path, "no such file") from None
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
-        reason = f"it is no value as --dump writes it ({type(error).__name__}: {error})"
-        raise UnreadableFile(path, reason) from None
 
 
 class Dump(Watcher):

@@ -8,8 +8,8 @@ from toys import toy_registry
 
 from graphface import Evaluator, MemoryTier, load
 from graphface.report.difference.side import Side
-from graphface.report.dump import write_value
 from graphface.report.trace import Trace
+from graphface.values.value_file import write_value
 
 Run = Callable[..., object]
 

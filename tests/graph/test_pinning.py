@@ -14,6 +14,7 @@ from toys import toy_registry
 from graphface import Evaluator, Graph, InputError, MemoryTier, Registry, UnreadableFile, load
 from graphface.evaluate.plan import plan
 from graphface.graph.request import changed
+from graphface.values.value_file import write_value
 
 TEXT = """graphface: 1
 name: pins
@@ -203,3 +204,23 @@ class TestChanged:
         assert set(asked.targets) == {"b"}
         assert {graph.names[slot] for slot in asked.pinned} == {"a", "g"}
         assert Evaluator().run(changed(graph.request({"x": 1.0}, ["b"]), "x", 4.0))["b"] == 7
+
+
+class TestDumped:
+    def test_record(self, graph: Graph, tmp_path: Path) -> None:
+        """A value of any type is read from the file that a dump, or the debugger, wrote."""
+        pair = graph.run(["p"], evaluator=Evaluator())["p"]
+        write_value(pair, tmp_path / "p.npz")
+        result = Evaluator().run(graph.request({}, ["p.low"], pinned={"p": tmp_path / "p.npz"}))
+        np.testing.assert_array_equal(result["p.low"], pair.low)
+
+    def test_another_type(self, graph: Graph, tmp_path: Path) -> None:
+        """One of another type is refused."""
+        write_value(1.5, tmp_path / "number.npz")
+        with pytest.raises(UnreadableFile, match=r"number\.npz"):
+            graph.request({}, ["p.low"], pinned={"p": tmp_path / "number.npz"})
+
+    def test_no_file_for_it(self, graph: Graph, tmp_path: Path) -> None:
+        """What can come from no other file is asked for as .npz."""
+        with pytest.raises(InputError, match=r"is read from \.npz"):
+            graph.request({}, ["p.low"], pinned={"p": "somewhere.png"})

@@ -20,10 +20,11 @@ from graphface.report.difference.recorded import read_recorded
 from graphface.report.difference.side import Side, failure_of
 from graphface.report.difference.tolerance import GOLDEN, Tolerance
 from graphface.report.difference.values import differences
-from graphface.report.dump import RUN, read_value, value_path
+from graphface.report.dump import RUN, value_path
 from graphface.report.trace import jsonable
 from graphface.values.picture import View
 from graphface.values.port_types import PortType
+from graphface.values.value_file import read_value
 
 _HAD = ("ran", "memory", "disk")
 """States of a node that has a value."""

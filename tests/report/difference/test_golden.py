@@ -15,8 +15,8 @@ from graphface.facade import Graph
 from graphface.report.difference.golden import GoldenComparison
 from graphface.report.difference.side import Side
 from graphface.report.difference.tolerance import Tolerance
-from graphface.report.dump import write_value
 from graphface.report.trace import Trace
+from graphface.values.value_file import write_value
 
 Made = Callable[..., Graph]
 
