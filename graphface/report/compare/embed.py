@@ -24,7 +24,8 @@ def page(title: str, body: str, *, styles: list[str], scripts: list[str], data: 
         body: markup. styles, scripts: their texts, after those of the viewer. data: what scripts find by `id`, as JSON.
     """
     style = "\n".join([_asset("viewer.css"), *styles])
-    script = "\n".join([_asset("viewer.js"), *scripts])
+    values = (files("graphface.report") / "values.js").read_text(encoding="utf-8")
+    script = "\n".join([values, _asset("viewer.js"), *scripts])
     digest = b64encode(sha256(f"\n{script}\n".encode()).digest()).decode("ascii")
     policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
     blocks = "\n".join(

@@ -7,8 +7,6 @@
 // where a pixel has a value, data. A layer with `message` has no picture. Words are set as text, never as markup.
 "use strict";
 const GraphfaceCompare = (() => {
-  const NAN = 65533, POSITIVE = 65534, NEGATIVE = 65535;
-
   function make(tag, attributes = {}, ...inside) {
     const made = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes)) {
@@ -27,33 +25,12 @@ const GraphfaceCompare = (() => {
     return text.replace("-", "−");
   }
 
-  async function inflate(text) {
-    const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
-  }
-
-  // The values that graphface.report.packing packed, as planes of height x width.
+  // The values under a layer's pixels, as planes of height x width.
   async function unpack(packed, blobs) {
-    const raws = await Promise.all(packed.planes.map(index => inflate(blobs[index])));
-    const {height, width, channels, bits} = packed, size = height * width;
-    const mask = bits === 8 ? 255 : 65535, planes = [];
-    for (let k = 0; k < channels; k++) {
-      const raw = raws[k];
-      const codes = new Uint16Array(size), values = new Float64Array(size);
-      for (let i = 0; i < size; i++) {
-        const zigzag = bits === 8 ? raw[i] : (raw[i] << 8) | raw[size + i];
-        const x = i % width, left = x ? codes[i - 1] : 0, above = i >= width ? codes[i - width] : 0;
-        const corner = x && i >= width ? codes[i - width - 1] : 0;
-        const low = Math.min(left, above), high = Math.max(left, above);
-        const predicted = Math.min(Math.max(left + above - corner, low), high);
-        const code = codes[i] = (predicted + ((zigzag >> 1) ^ -(zigzag & 1))) & mask;
-        values[i] = packed.low[k] + code * packed.step[k];
-        if (packed.special && code >= NAN) values[i] = code === NAN ? NaN : code === POSITIVE ? Infinity : -Infinity;
-      }
-      planes.push(values);
-    }
-    return planes;
+    const codes = await unpackedCodes(packed, plane => Uint8Array.from(atob(blobs[plane]), c => c.charCodeAt(0)));
+    const size = packed.height * packed.width;
+    return Array.from({length: packed.channels}, (_, channel) =>
+      Float64Array.from(codes.subarray(channel * size, (channel + 1) * size), code => numberOf(packed, code, channel)));
   }
 
   function url(layer, blobs) { return "data:image/webp;base64," + blobs[layer.image]; }

@@ -23,7 +23,7 @@ from graphface.report.page.seven_bit import seven_bit
 from graphface.report.recorder import Recorder
 from graphface.values.writing import beside, check_folder
 
-_SCRIPTS = ("element", "values", "viewer", "panel", "drawing", "timeline", "lists", "search", "page")
+_SCRIPTS = ("element", "viewer", "panel", "drawing", "timeline", "lists", "search", "page")
 """In this order, in one scope."""
 
 
@@ -53,7 +53,8 @@ def report_page(recorder: Recorder) -> str:
     """The page as text."""
     shown = model(recorder)
     assert recorder.request is not None
-    script = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
+    values = (files("graphface.report") / "values.js").read_text(encoding="utf-8")
+    script = "\n".join([values, *(_part(f"{name}.js") for name in _SCRIPTS)])
     blobs = "\n".join(map(seven_bit, recorder.blobs.contents))
     policy = f"default-src 'none'; img-src blob:; style-src 'unsafe-inline'; script-src 'sha256-{_hash(script)}'"
     return f"""<!DOCTYPE html>

@@ -1,5 +1,30 @@
 // A picture with zoom and pan, and the value under the cursor.
 
+class Values {
+  static async of(data) {
+    return new Values(data, await unpackedCodes(data, bytesOf));
+  }
+
+  constructor(data, codes) {
+    this.data = data;
+    this.codes = codes;
+  }
+
+  // The numbers at a column and row of the packed array, one for each channel.
+  at(column, row) {
+    const { height, width, channels } = this.data;
+    return Array.from({ length: channels }, (_, channel) =>
+      numberOf(this.data, this.codes[(channel * height + row) * width + column], channel),
+    );
+  }
+
+  // Where the value stood in the array itself: rows and columns are picked, each from the middle of its share.
+  original(column, row) {
+    const { height, width, full } = this.data;
+    return [Math.floor(((column + 0.5) * full[1]) / width), Math.floor(((row + 0.5) * full[0]) / height)];
+  }
+}
+
 const MOST = 64;
 
 class Viewer {
