@@ -114,7 +114,6 @@ class KeyRecipe:
         """
         digests = tuple(digests)
         code = CODE.digests(self._operators)
-        rows: Iterable[tuple[int, _Row]] = enumerate(self._rows, self._first)
         if before is None or before.code != code or before.pinned != pinned:
             changed = bytearray(b"\1" * (self._first + len(self._rows)))
             by_slot = [*digests, *(b"" for _ in self._rows)]
@@ -126,27 +125,25 @@ class KeyRecipe:
             changed.extend(bytes(len(self._rows)))
             by_slot = [*digests, *before.by_slot[self._first :]]
             declined = dict(before.declined)
-        if pinned:
-            rows = [(slot, row) for slot, row in rows if slot not in pinned]
-            for slot, digest in pinned.items():
-                by_slot[slot] = digest
-        for slot, row in rows:
-            parents = row.parents
-            for parent in parents:
-                if changed[parent]:
-                    break
-            else:
-                if not changed[slot]:
-                    continue
+        for slot, digest in pinned.items():
+            by_slot[slot] = digest
+        for slot, row in self._not_in(pinned):
+            if not changed[slot] and not any([changed[p] for p in row.parents]):  # noqa: C419 - faster
+                continue
             text = code[row.operator] + row.settings
             if row.step.lazy:
                 text += _lazy_parents(row.step, by_slot, declined, decide)
             else:
-                text += b"".join([by_slot[parent] for parent in parents])
+                text += b"".join([by_slot[parent] for parent in row.parents])
             key = blake2b(text, digest_size=KEY_BYTES).digest()
             changed[slot] = key != by_slot[slot]
             by_slot[slot] = key
         return Keys(by_slot, declined, digests, code, pinned)
+
+    def _not_in(self, pinned: Mapping[int, bytes]) -> Iterable[tuple[int, _Row]]:
+        """The rows with their slots, without those that are pinned."""
+        rows = enumerate(self._rows, self._first)
+        return ((slot, row) for slot, row in rows if slot not in pinned) if pinned else rows
 
 
 def _settings(step: Step, known: dict[tuple[object, ...], bytes]) -> bytes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -68,12 +68,23 @@ def _by_engine(value: Any, declared: PortType, registry: Registry, view: View, d
     types = _types(value, declared, rule)
     view = replace(view, above=_within([part for _, part in parts], view.above))
 
-    def shown(label: Any, part: Any) -> Callable[[View], Picture]:
+    def drawing(label: Any, part: Any) -> Callable[[View], Picture]:
         return lambda inner: _drawn(part, types(label), registry, inner, depth - 1)
 
-    words = [(label, part) for label, part in parts if named and _is_short(part)]
-    cells: list[Cell] = [(str(label), shown(label, part)) for label, part in parts if not (named and _is_short(part))]
-    lines = "\n".join(f"{label}: {_words(part)}" for label, part in words)
+    return _tiles(parts, drawing, view, named=named)
+
+
+def _tiles(
+    parts: Sequence[tuple[Any, Any]],
+    drawing: Callable[[Any, Any], Callable[[View], Picture]],
+    view: View,
+    *,
+    named: bool,
+) -> Picture:
+    """A tile for each part; of named parts the short ones are lines of one tile."""
+    short = [(label, part) for label, part in parts if named and _is_short(part)]
+    cells: list[Cell] = [(str(label), drawing(label, part)) for label, part in parts if not (named and _is_short(part))]
+    lines = "\n".join(f"{label}: {_words(part)}" for label, part in short)
     if not cells:
         return draw_text(lines, view)
     if lines:

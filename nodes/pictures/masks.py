@@ -27,7 +27,7 @@ _PALETTE = {
     "pink": (250, 130, 190),
     "white": (250, 250, 250),
 }
-_LETTERS_FROM = 160
+_LETTERS_FROM = 400
 """Pixels of a picture's shorter side from which the parts are named in it."""
 
 

@@ -47,7 +47,7 @@ def test_head_masks():
 
 def test_legend():
     """A picture with room for it names the parts; the names are told in the note as well."""
-    regions = Regions(**{name: np.zeros((200, 200), np.float32) for name in REGIONS})
+    regions = Regions(**{name: np.zeros((400, 400), np.float32) for name in REGIONS})
     picture = draw_regions(regions, View())
     assert len(np.unique(picture.pixels.reshape(-1, 3), axis=0)) > 9
     assert all(name.replace("_", " ") in picture.note for name in REGIONS)
