@@ -11,6 +11,7 @@ from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))  # importlib mode leaves `toys` unfindable otherwise
 
+from browser import browser, open_page  # noqa: F401 - fixtures
 from evaluator_lab import THREADS, TIERS, Lab, build
 from toys import LOGGER, toy_registry
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import browser, open_page  # noqa: F401 - fixtures
 
 from graphface import Evaluator, MemoryTier, Registry
 from graphface.ablation import ablate
@@ -55,7 +54,7 @@ def test_hostile_words(written: Callable[..., Path]) -> None:
     assert HOSTILE in json.loads(re.findall(r'id="ablated">(.*?)</script>', page)[0])["title"]
 
 
-def test_table_and_pictures(written: Callable[..., Path], open_page: Any) -> None:  # noqa: F811
+def test_table_and_pictures(written: Callable[..., Path], open_page: Any) -> None:
     """A line for each variant; the original and every variant side by side."""
     page = open_page(written("s.by=1,2,3"))
     assert [line.strip() for line in page.locator("tbody th").all_inner_texts()] == ["1 s.by=1", "2 s.by=2", "3 s.by=3"]
@@ -63,7 +62,7 @@ def test_table_and_pictures(written: Callable[..., Path], open_page: Any) -> Non
     assert [title.split("\n")[0].split(" ")[0] for title in titles] == ["original", "s.by=1", "s.by=2", "s.by=3"]
 
 
-def test_variants_are_chosen_by_line_and_key(written: Callable[..., Path], open_page: Any) -> None:  # noqa: F811
+def test_variants_are_chosen_by_line_and_key(written: Callable[..., Path], open_page: Any) -> None:
     """Wipe, flicker and difference show the chosen one against the first, the first against the original."""
     page = open_page(written("s.by=1,2,3"))
     page.get_by_role("button", name="Difference", exact=True).click()
@@ -75,7 +74,7 @@ def test_variants_are_chosen_by_line_and_key(written: Callable[..., Path], open_
     assert page.locator("tbody tr[aria-selected=true] th").inner_text().endswith("s.by=2")
 
 
-def test_nodes_in_step(written: Callable[..., Path], open_page: Any) -> None:  # noqa: F811
+def test_nodes_in_step(written: Callable[..., Path], open_page: Any) -> None:
     """Any node that differs, of every variant; the zoom stays as it is."""
     page = open_page(written("s.by=1,2"))
     page.keyboard.press("+")
@@ -84,13 +83,13 @@ def test_nodes_in_step(written: Callable[..., Path], open_page: Any) -> None:  #
     assert page.locator(".gc-zoom").inner_text() == "1.5 x"
 
 
-def test_failed_variant(written: Callable[..., Path], open_page: Any) -> None:  # noqa: F811
+def test_failed_variant(written: Callable[..., Path], open_page: Any) -> None:
     """Says why in place of its picture."""
     page = open_page(written("t=scale,write"))
     assert "read-only" in page.locator(".gc-message").inner_text()
 
 
-def test_cases(written: Callable[..., Path], open_page: Any) -> None:  # noqa: F811
+def test_cases(written: Callable[..., Path], open_page: Any) -> None:
     """Each has its pictures."""
     page = open_page(written("s.by=1,2", cases=2))
     before = page.locator(".gc-picture").first.get_attribute("src")

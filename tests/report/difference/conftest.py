@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from browser import browser, open_page  # noqa: F401 - fixtures
 from toys import toy_registry
 
 from graphface import Evaluator, MemoryTier, load

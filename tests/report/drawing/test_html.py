@@ -2,13 +2,12 @@
 
 import json
 import re
-import shutil
-from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pytest
+from browser import Open
 
 from graphface import Graph, load
 from graphface.report.drawing.html import draw_html
@@ -46,30 +45,12 @@ def test_hostile(hostile: Graph, graph: Graph, hostile_marks: dict[str, Mark]) -
     assert tags.active == []
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    playwright = pytest.importorskip("playwright.sync_api", reason="needs Playwright")
-    program = shutil.which("chromium") or shutil.which("google-chrome")
-    if program is None:
-        pytest.skip("needs Chromium")
-    with playwright.sync_playwright() as running:
-        started = running.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield started
-        started.close()
-
-
 @pytest.fixture
-def page(browser: Any, tmp_path: Path) -> Iterator[Any]:
-    """Relight in a browser; an error in its script fails the test."""
+def page(open_page: Open, tmp_path: Path) -> Any:
+    """Relight in a browser."""
     path = tmp_path / "relight.html"
     path.write_text(draw_html(load("relight")), encoding="utf-8")
-    opened = browser.new_page(viewport={"width": 1280, "height": 800})
-    errors: list[object] = []
-    opened.on("pageerror", lambda error: errors.append(error))
-    opened.goto(path.as_uri())
-    yield opened
-    opened.close()
-    assert errors == []
+    return open_page(path)
 
 
 class TestBrowser:

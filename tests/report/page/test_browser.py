@@ -1,20 +1,18 @@
 """The page in a browser, from file://: every node opens, values are read where they are, texts stay texts."""
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from browser import Open
 from numpy.typing import NDArray
 from toys import Grid, toy_registry
 
 from graphface import Evaluator, Registry, RunFailed, load, node
 from graphface.report.page.html import write_report
 from graphface.report.recorder import Recorder
-
-sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
 
 HOSTILE = "</script><img src=x onerror=window.hostile=1><!-- \u2028 \"'&amp;"
 SIZE = 64
@@ -79,18 +77,6 @@ def _report(path: Path, output: str) -> Path:
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-    with sync_api.sync_playwright() as playwright:
-        try:
-            opened = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        except sync_api.Error as error:
-            pytest.skip(f"needs a Chromium: {str(error).splitlines()[0]}")
-        yield opened
-        opened.close()
-
-
-@pytest.fixture(scope="module")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return _report(tmp_path_factory.mktemp("report") / "a <b> & #1.html", "top")
 
@@ -101,23 +87,18 @@ def failed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def open_page(browser: Any) -> Iterator[Any]:
-    """Opens a file; afterwards nothing was wrong in the console and nothing hostile ran."""
-    complaints: list[str] = []
-    context = browser.new_context(viewport={"width": 1280, "height": 800}, offline=True)
+def open_page(open_page: Open) -> Iterator[Open]:
+    """Opens a report; afterwards nothing hostile ran."""
+    pages = []
 
     def opened(path: Path, place: str = "") -> Any:
-        page = context.new_page()
-        page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.goto(path.as_uri() + place)
+        page = open_page(path, place=place)
         page.wait_for_selector("#panel h2")
+        pages.append(page)
         return page
 
     yield opened
-    assert [page.evaluate("window.hostile") for page in context.pages] == [None] * len(context.pages)
-    context.close()
-    assert complaints == []
+    assert [page.evaluate("window.hostile") for page in pages] == [None] * len(pages)
 
 
 def _chosen(page: Any) -> str:
