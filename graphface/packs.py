@@ -10,7 +10,6 @@ keep a graph from running.
 from __future__ import annotations
 
 import importlib.util
-import os.path
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -121,15 +120,25 @@ def pictures_in(module: ModuleType) -> dict[Any, Draw]:
 
 
 def import_file(path: Path) -> ModuleType:
-    """A plug-in file as a module.
+    """A plug-in file as a module; the one that was imported before, where the file is what it was.
+
+    Executed again it would be other code: its functions would have other fingerprints, and no result of theirs would be
+    found in a cache.
 
     Raises:
         PluginError: the file is missing, or fails to import.
     """
     name = f"graphface_plugin_{path.stem}"
+    try:
+        text = path.read_bytes()
+    except OSError:
+        raise PluginError(f"{path}: no such plug-in file", path=path) from None
+    before = sys.modules.get(name)
+    if before is not None and _imported.get(name) == (path.resolve(), text):
+        return before
     spec = importlib.util.spec_from_file_location(name, path, loader=_FromSource(name, str(path)))
-    if spec is None or spec.loader is None or not os.path.isfile(path):
-        raise PluginError(f"{path}: no such plug-in file", path=path)
+    assert spec is not None
+    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     try:
@@ -137,7 +146,12 @@ def import_file(path: Path) -> ModuleType:
     except Exception as error:
         del sys.modules[name]
         raise PluginError(f"{path}: {import_failure(error)}", path=path) from error
+    _imported[name] = path.resolve(), text
     return module
+
+
+_imported: dict[str, tuple[Path, bytes]] = {}
+"""By module name: the plug-in file that it was made from, and what stood in it."""
 
 
 class _FromSource(SourceFileLoader):

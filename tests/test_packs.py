@@ -188,6 +188,15 @@ class TestFile:
         path.write_text(MODULE)
         assert set(types_in(import_file(path))) == {"Grain", "Film"}
 
+    def test_again(self, tmp_path: Path) -> None:
+        """A file that is what it was is the same module, so its nodes keep their keys; an edited one is another."""
+        path = tmp_path / "film.py"
+        path.write_text(MODULE)
+        first = import_file(path)
+        assert import_file(path) is first
+        path.write_text(MODULE + "\n")
+        assert import_file(path) is not first
+
     def test_line(self, tmp_path: Path) -> None:
         """A file that fails to import is told with the line at fault."""
         path = tmp_path / "bad.py"
