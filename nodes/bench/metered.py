@@ -11,9 +11,10 @@ import time
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from graphface import Evaluator, MemoryTier, Observer, Result
+from graphface import Evaluator, MemoryTier, Observer
 
 if TYPE_CHECKING:
+    from graphface.evaluate.evaluator import Result
     from graphface.graph.request import Request
     from graphface.graph.structure import Step
     from graphface.record import Record

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from graphface import UnreadableFile, UnwritableFile
-from graphface.nodes.color import decode_srgb
+from graphface.nodes.color import decode_srgb, encode_srgb
 from graphface.nodes.io.exr import read_exr, write_exr
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.types import Environment, FloatArray
+from graphface.pictures.colors import as_bytes
 
 _HDR = (".hdr", ".pic")
 
@@ -41,7 +42,8 @@ def write_panorama(environment: Environment, path: Path) -> None:
     elif path.suffix.lower() in _HDR:
         _write_hdr(environment.radiance, path)
     else:
-        write_picture(Environment.picture(environment), path)
+        white = max(1.0, 4 * float(environment.radiance.mean()))  # brighter ones have their mean at mid grey
+        write_picture(as_bytes(encode_srgb(environment.radiance / np.float32(white))), path)
 
 
 def _read(path: Path) -> FloatArray:

@@ -8,7 +8,7 @@ import numpy as np
 from graphface.nodes.pictures.mosaic import mosaic, tile_view
 from graphface.nodes.pictures.photo import Pixels, backdrop
 from graphface.nodes.types import Correspondence, FloatArray
-from graphface.pictures.colors import mark_odd
+from graphface.pictures.colors import as_bytes, mark_odd
 from graphface.values.picture import Picture, View, picked
 
 _ARROWS = 14
@@ -25,13 +25,13 @@ def draw_correspondence(correspondence: Correspondence, view: View) -> Picture:
     shift = places - _own_places(full, (shape[0], shape[1]))
     known = (valid > 0.5) & np.isfinite(shift).all(axis=2)
     usual = np.median(shift[known], axis=0) if known.any() else np.zeros(2, np.float32)
-    relative = np.where(known[..., None], shift - usual, 0)
+    relative = np.where(known[..., None], shift - usual, 0).astype(np.float32)
     reach = float(np.percentile(np.hypot(relative[..., 0], relative[..., 1])[known], 98)) if known.any() else 0.0
     reach = max(reach, 1e-6)
     under = backdrop(tile, full, shape)
-    colors = np.where(known[..., None], flow_colors(relative / reach), under)
+    colors = np.where(known[..., None], flow_colors(relative / np.float32(reach)), under)
     mark_odd(colors, places)
-    _arrows(colors, relative / reach, known)
+    _arrows(colors, relative / np.float32(reach), known)
     _wheel(colors)
     data = np.concatenate([places, valid[..., None]], axis=2)
     names = ("x in the reference", "y in the reference", "valid")
@@ -94,4 +94,4 @@ def _board(correspondence: Correspondence, places: FloatArray) -> Pixels:
     dark = (square.sum(axis=2) % 2)[..., None]
     x, y = square[..., 0] * cell / max(width, 1), square[..., 1] * cell / max(height, 1)
     colors = np.stack([0.25 + 0.7 * x, 0.25 + 0.7 * y, 0.95 - 0.7 * x], axis=2)
-    return np.rint(np.clip(np.where(dark > 0, colors, 0.45 * colors), 0, 1) * 255).astype(np.uint8)
+    return as_bytes(np.where(dark > 0, colors, 0.45 * colors))

@@ -67,7 +67,7 @@ def draw_environment(environment: Environment, view: View) -> Picture:
         return draw_text("an empty panorama", view)
     finite = np.nan_to_num(seen, posinf=0, neginf=0)
     white = max(1.0, 4 * float(finite.mean()))
-    pixels = as_bytes(encode_srgb(seen / np.float32(white)))
+    pixels = as_bytes(encode_srgb(np.asarray(seen / white, np.float32)))
     side = seen.shape[0] // 3
     note = f"linear radiance, white is {white:.3g}; the middle looks to the viewer"
     if side >= 16:

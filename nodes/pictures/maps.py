@@ -66,8 +66,8 @@ def draw_surface(surface: Surface, view: View) -> Picture:
 def draw_coordinates(coordinates: FaceCoordinates, view: View) -> Picture:
     """u as red, v as green, a line at every sixteenth; the photo where there is no face."""
     seen = view.sampled(coordinates)
-    known = (seen >= 0).all(axis=2)
-    lines = ((seen * 16) % 1 < 0.12).any(axis=2)
+    known = np.all(seen >= 0, axis=2)
+    lines = np.any((seen * 16) % 1 < 0.12, axis=2)
     colors = np.concatenate([seen, np.full((*seen.shape[:2], 1), 0.35, np.float32)], axis=2)
     colors = np.where(lines[..., None], colors * 0.45, colors)
     pixels = np.where(known[..., None], as_bytes(colors), backdrop(view, coordinates.shape, seen.shape))

@@ -52,7 +52,7 @@ def draw_textured(textured: TexturedMesh, view: View) -> Picture:
         uv = interpolated(mesh.uv, surface, mesh)
         x, y = uv[..., 0] * texture.width - 0.5, (1 - uv[..., 1]) * texture.height - 0.5
         found = cv2.remap(np.ascontiguousarray(pixels), x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        return np.where(surface.coverage[..., None] > 0, as_bytes(np.asarray(found)), np.uint8(PAPER))
+        return np.where(surface.coverage[..., None] > 0, as_bytes(np.asarray(found)), np.array(PAPER, np.uint8))
 
     return _three_views(textured.mesh, view, in_color, f"the texture on the mesh; {_NOTE}")
 
@@ -85,7 +85,7 @@ def _turned(mesh: Mesh, middle: FloatArray, scale: float, size: tuple[int, int],
     """The mesh turned about its vertical axis, in the middle of a picture in parallel projection."""
     turn = rotation_matrix(angle, 0).T.astype(np.float32)
     camera = Camera(scale, ((size[1] - 1) / 2, (size[0] - 1) / 2))
-    vertices = (mesh.vertices - middle) @ turn
+    vertices = ((mesh.vertices - middle) @ turn).astype(np.float32)
     return replace(mesh, vertices=vertices, normals=mesh.normals @ turn, camera=camera, interocular=0.0)
 
 
@@ -97,7 +97,7 @@ def _clay(mesh: Mesh, size: tuple[int, int]) -> Pixels:
     placed = mesh.vertices - np.array([0, 0, distance], np.float32)
     shade = 0.22 + 0.7 * np.clip(mesh.normals @ _LIGHT, 0, 1)
     colors = np.repeat(shade.astype(np.float32)[:, None], 3, axis=1)
-    drawn = np.full((height, width, 3), np.float32(PAPER) / 255, np.float32)
+    drawn = np.full((height, width, 3), np.array(PAPER, np.float32) / 255, np.float32)
     depth = np.full((height, width), distance + 2 * radius, np.float32)
     settings = cv2.TriangleRasterizeSettings()
     settings.setShadingType(cv2.RASTERIZE_SHADING_SHADED)

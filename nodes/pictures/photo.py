@@ -24,7 +24,8 @@ _CHECKER = 8
 def draw_image(image: Image, view: View) -> Picture:
     """The photo, encoded to sRGB; over a checkerboard where it is transparent."""
     seen = view.sampled(image.pixels)
-    data, channels, note = seen, ("red", "green", "blue"), f"{image.encoding} values; white is 1"
+    channels: tuple[str, ...] = ("red", "green", "blue")
+    data, note = seen, f"{image.encoding} values; white is 1"
     pixels = bytes_of(image, seen)
     if image.alpha is not None:
         alpha = view.sampled(image.alpha)

@@ -56,7 +56,7 @@ class Frame:
     @property
     def unit(self) -> float:
         """A dot's radius, or the width of a line."""
-        return max(self.pixels.shape[:2]) / 400
+        return float(max(self.pixels.shape[:2]) / 400)
 
 
 def frame_for(view: View, points: NDArray[Any], *, dark: bool = False) -> Frame:
@@ -85,7 +85,7 @@ def frame_for(view: View, points: NDArray[Any], *, dark: bool = False) -> Frame:
 def draw_landmarks(landmarks: Landmarks, view: View) -> Picture:
     """The points on the photo, the contours of the features as lines."""
     frame = frame_for(view, landmarks.points[:, :2])
-    places, known = frame.places(landmarks.points[:, :2]), np.isfinite(landmarks.points[:, :2]).all(axis=1)
+    places, known = frame.places(landmarks.points[:, :2]), np.all(np.isfinite(landmarks.points[:, :2]), axis=1)
     thickness = max(1, round(frame.unit))
     for contour, closed in _CONTOURS:
         numbers = _in_scheme(contour, landmarks.scheme)

@@ -119,7 +119,7 @@ def _ball(scene: Scene, side: int) -> NDArray[np.uint8]:
     irradiance = np.zeros((len(flat), 3)) + np.asarray(scene.ambient)
     for light in scene.lights:
         irradiance += _irradiance(light, flat) * light.radiance
-    shown = as_bytes(encode_srgb(np.float32(irradiance.reshape(side, side, 3) * scene.exposure / 2)))
+    shown = as_bytes(encode_srgb((irradiance.reshape(side, side, 3) * scene.exposure / 2).astype(np.float32)))
     cover = inside[..., None]
     return np.rint(shown * cover + np.array(_PAPER) * (1 - cover)).astype(np.uint8)
 
@@ -136,7 +136,7 @@ def _irradiance(light: Any, normals: NDArray[Any]) -> NDArray[Any]:
         if isinstance(light, SpotLight):
             angle = np.degrees(np.arccos(np.clip((-way @ light.axis) / np.maximum(distance, 1e-6), -1, 1)))
             arrives = arrives * np.clip((light.cone + light.penumbra - angle) / max(light.penumbra, 1e-3), 0, 1)
-        return arrives[:, None]
+        return np.asarray(arrives[:, None])
     if isinstance(light, HarmonicLight):
         values = light.values
         order = round(float(np.sqrt(len(values)))) - 1

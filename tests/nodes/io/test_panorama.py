@@ -47,3 +47,10 @@ class TestEnvironmentFiles:
         """An 8-bit picture has radiance in 0..1, linear."""
         write_picture(np.full((4, 8, 3), 128, np.uint8), tmp_path / "sky.png")
         np.testing.assert_allclose(read_panorama(tmp_path / "sky.png").radiance, 0.2159, atol=1e-3)
+
+    @pytest.mark.parametrize("mean", [0.1, 5.0])
+    def test_written_as_a_picture(self, mean, tmp_path):
+        """As a picture it is sRGB-encoded; what is brighter than a picture can show has its mean at mid grey."""
+        write_panorama(Environment(np.full((4, 8, 3), mean, np.float32)), tmp_path / "sky.png")
+        read = read_panorama(tmp_path / "sky.png").radiance
+        assert read == pytest.approx(min(mean, 0.25), abs=0.003)
