@@ -18,16 +18,18 @@ def step_through(function: Callable[..., Any], given: Mapping[str, Any]) -> None
 
     What it gives is printed and not kept: it is a pure function, and the run has its own call of it.
     """
-    debugger = _debugger()
+    traced = sys.gettrace()
     try:
         with python_warnings():
-            value = debugger.runcall(function, **given)
+            value = _debugger().runcall(function, **given)
     except bdb.BdbQuit:
         return
     except Exception as error:
         print(f"it raised {reason_of(error)}")
         _after(error)
         return
+    finally:
+        sys.settrace(traced)  # pdb leaves none behind: a debugger or a measurement of coverage around it goes on
     print(f"it gave {describe(value)}")
 
 

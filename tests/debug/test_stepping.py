@@ -31,3 +31,21 @@ def test_scripted(
     step_through(divide, {"a": 3, "b": b})
     out = capsys.readouterr().out
     assert all(words in out for words in said)
+
+
+@pytest.mark.parametrize("commands", ["c\n", "q\n", "n\nn\nc\n"])
+def test_other_tracers(monkeypatch: pytest.MonkeyPatch, commands: str) -> None:
+    """Whoever traces the process, another debugger or coverage, goes on afterwards."""
+    monkeypatch.setattr(sys, "stdin", io.StringIO(commands))
+
+    def tracer(*event: object) -> None:
+        return None
+
+    before = sys.gettrace()
+    sys.settrace(tracer)
+    try:
+        step_through(divide, {"a": 3, "b": 4})
+        after = sys.gettrace()
+    finally:
+        sys.settrace(before)
+    assert after is tracer
