@@ -36,7 +36,7 @@ GUARDED = {
     "graphface.values.codec": "f27e20f3b041",
     # keys
     "graphface.values.digest": "f657f3225d49",
-    "graphface.graph.keys": "9bc5b2381433",
+    "graphface.graph.keys": "c208235c744c",
 }
 
 
