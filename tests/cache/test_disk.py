@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from disk_entries import ARRAY, KEY, MIB, OTHER, entry_of
 
 from graphface.cache.disk import DiskTier
 from graphface.cache.memory import MISSING
@@ -23,18 +24,6 @@ sys.path.insert(0, os.path.dirname(__file__))
 import writer
 
 KILLS = int(os.environ.get("GRAPHFACE_KILLS", "20"))
-
-KEY = bytes(range(16))
-
-OTHER = bytes(reversed(range(16)))
-
-ARRAY = np.arange(300, dtype=np.float32).reshape(10, 10, 3)
-
-MIB = 1 << 20
-
-
-def entry_of(tier: DiskTier, key: bytes = KEY) -> Path:
-    return tier.folder / key.hex()[:2] / f"{key.hex()}.safetensors"
 
 
 class TestGetPut:

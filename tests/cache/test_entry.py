@@ -1,27 +1,14 @@
 """A damaged entry is found, told, and never served."""
 
 import os
-from pathlib import Path
 
 import numpy as np
 import pytest
+from disk_entries import ARRAY, KEY, OTHER, entry_of
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from graphface.cache.disk import DiskTier
 from graphface.cache.memory import MISSING
-
-KEY = bytes(range(16))
-
-OTHER = bytes(reversed(range(16)))
-
-ARRAY = np.arange(300, dtype=np.float32).reshape(10, 10, 3)
-
-MIB = 1 << 20
-
-
-def entry_of(tier: DiskTier, key: bytes = KEY) -> Path:
-    return tier.folder / key.hex()[:2] / f"{key.hex()}.safetensors"
 
 
 class TestDamage:

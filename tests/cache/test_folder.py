@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from disk_entries import ARRAY, KEY, MIB, OTHER, entry_of
 
 from graphface import UsageError
 from graphface.cache import folder as folder_module
@@ -13,18 +14,6 @@ from graphface.cache.disk import DiskTier
 from graphface.cache.folder import MARK
 from graphface.cache.memory import MISSING
 from graphface.values import whole_file
-
-KEY = bytes(range(16))
-
-OTHER = bytes(reversed(range(16)))
-
-ARRAY = np.arange(300, dtype=np.float32).reshape(10, 10, 3)
-
-MIB = 1 << 20
-
-
-def entry_of(tier: DiskTier, key: bytes = KEY) -> Path:
-    return tier.folder / key.hex()[:2] / f"{key.hex()}.safetensors"
 
 
 class TestFolder:

@@ -3,34 +3,16 @@
 from typing import Any
 
 import pytest
+from stops import TEXT, stops
 
-from graphface import Breakpoint, Evaluator, Graph, GraphfaceWarning, InputError, MemoryTier, Registry, StopRun, load
+from graphface import Breakpoint, Graph, GraphfaceWarning, InputError, Registry, StopRun, load
 from graphface.debug.stop import Stop
 from graphface.errors import RunFailed, UsageError
-
-TEXT = """graphface: 1
-inputs: {x: {type: float, default: 1}}
-nodes:
-  a: {use: toy.add, in: {a: x}, with: {plus: 1, label: a}}
-  b: {use: toy.add, in: {a: a}, with: {plus: 2, label: b}}
-  c: {use: toy.add, in: {a: b, b: a}, with: {label: c}}
-  t: {use: toy.total, in: {values: [a, b]}}
-  g: {use: toy.grid}
-  p: {use: toy.pair, in: {grid: g}}
-  m: {use: toy.mean, in: {grid: p.low}}
-  bad: {use: toy.fail, in: {a: a}}
-outputs: {c: c}
-"""
 
 
 @pytest.fixture
 def graph(registry: Registry) -> Graph:
     return load(TEXT, registry=registry)
-
-
-def stops(graph: Graph, *breakpoints: Breakpoint, outputs: list[str] | None = None, threads: int = 1) -> Any:
-    evaluator = Evaluator(memory=MemoryTier(), observers=breakpoints, threads=threads)
-    return graph.run(outputs, evaluator=evaluator)
 
 
 class TestStops:

@@ -3,21 +3,11 @@
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
+from graph_texts import ADD, refused
 
-from graphface import DocumentError, Graph
-from graphface.errors import Problem
+from graphface import Graph
 
 Write = Callable[..., Path]
-
-
-def refused(opened: Callable[..., Graph], path: object, **choices: object) -> list[Problem]:
-    with pytest.raises(DocumentError) as caught:
-        opened(path, **choices)
-    return caught.value.problems
-
-
-ADD = "nodes:\n  n: {use: toy.number}\n  x: {use: toy.add, in: {a: n}, with: {plus: 1}}\noutputs: {y: x}\n"
 
 
 class TestExtends:

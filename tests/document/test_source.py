@@ -3,29 +3,20 @@
 from pathlib import Path
 
 import pytest
+from graph_texts import SUMS
 
 from graphface import DocumentError, Graph, Registry, UsageError, load
-
-TEXT = """graphface: 1
-name: sums
-inputs: {x: {type: float, default: 2}, g: Grid}
-nodes:
-  a: {use: toy.add, in: {a: x}, with: {plus: 1}}
-  p: {use: toy.pair, in: {grid: g}}
-  m: {use: toy.mean, in: {grid: p.low}}
-outputs: {y: a, low: p.low}
-"""
 
 
 @pytest.fixture
 def graph(registry: Registry) -> Graph:
-    return load(TEXT, registry=registry)
+    return load(SUMS, registry=registry)
 
 
 class TestSources:
     def test_file(self, registry: Registry, tmp_path: Path) -> None:
         """From a file, by path or text of the path."""
-        (tmp_path / "g.yaml").write_text(TEXT)
+        (tmp_path / "g.yaml").write_text(SUMS)
         for source in (tmp_path / "g.yaml", str(tmp_path / "g.yaml")):
             assert load(source, registry=registry).run(["y"])["y"] == 3
 
@@ -50,7 +41,7 @@ class TestSources:
 
     def test_name_from_the_file(self, registry: Registry, tmp_path: Path) -> None:
         """A graph without a name is called like its file."""
-        (tmp_path / "mine.yaml").write_text(TEXT.replace("name: sums\n", ""))
+        (tmp_path / "mine.yaml").write_text(SUMS.replace("name: sums\n", ""))
         assert load(tmp_path / "mine.yaml", registry=registry).name == "mine"
 
     def test_plugin(self, registry: Registry, tmp_path: Path) -> None:

@@ -1,23 +1,14 @@
 """A graph from outside: its name, its edges, what lies behind a node."""
 
 import pytest
+from graph_texts import SUMS
 
 from graphface import Graph, Registry, load
-
-TEXT = """graphface: 1
-name: sums
-inputs: {x: {type: float, default: 2}, g: Grid}
-nodes:
-  a: {use: toy.add, in: {a: x}, with: {plus: 1}}
-  p: {use: toy.pair, in: {grid: g}}
-  m: {use: toy.mean, in: {grid: p.low}}
-outputs: {y: a, low: p.low}
-"""
 
 
 @pytest.fixture
 def graph(registry: Registry) -> Graph:
-    return load(TEXT, registry=registry)
+    return load(SUMS, registry=registry)
 
 
 class TestOutside:
