@@ -19,7 +19,9 @@ from graphface.cli.options import (
     Replaces,
     Sets,
     Variants,
-    open_cache,
+    load_graph,
+    open_evaluator,
+    read_choices,
 )
 
 if TYPE_CHECKING:
@@ -28,31 +30,43 @@ if TYPE_CHECKING:
     from graphface.facade import Graph
 
 
+_Swaps = Annotated[
+    list[str], typer.Option("--swap", metavar="NODE=A,B", help="Methods of a node, or values of NODE.PARAM.")
+]
+_Folder = Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="Folder for the answer.")]
+_Output = Annotated[str | None, typer.Option(help="Which output to compare; the graph's first one.")]
+_Truth = Annotated[
+    Path | None, typer.Option(help="The true output, or a folder that has it under the input's file name.")
+]
+_Metrics = Annotated[list[str], typer.Option(help="Figures wanted; all that fit by default.")]
+_OneAtATime = Annotated[bool, typer.Option("--one-at-a-time", help="Vary one swap at a time.")]
+_Nodes = Annotated[
+    list[str],
+    typer.Option(metavar="NAME", help="A further node, or node.field, to show in the page, with its values."),
+]
+_Size = Annotated[int, typer.Option(min=64, max=4096, help="Pixels of an output's longer side in the page.")]
+_Crop = Annotated[str | None, typer.Option(metavar="X,Y,W,H", help="Window of the crops, in pixels.")]
+_Threads = Annotated[int, typer.Option(min=1, help="Nodes at once; 1 keeps node times undisturbed.")]
+
+
 def ablate(
     graph: GraphName,
-    swap: Annotated[
-        list[str], typer.Option("--swap", metavar="NODE=A,B", help="Methods of a node, or values of NODE.PARAM.")
-    ],
+    swap: _Swaps,
     inputs: Inputs = [],  # noqa: B006
-    out: Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="Folder for the answer.")] = Path("ablation"),
-    output: Annotated[str | None, typer.Option(help="Which output to compare; the graph's first one.")] = None,
-    truth: Annotated[
-        Path | None, typer.Option(help="The true output, or a folder that has it under the input's file name.")
-    ] = None,
-    metric: Annotated[list[str], typer.Option(help="Figures wanted; all that fit by default.")] = [],  # noqa: B006
-    one_at_a_time: Annotated[bool, typer.Option("--one-at-a-time", help="Vary one swap at a time.")] = False,
-    node: Annotated[
-        list[str],
-        typer.Option(metavar="NAME", help="A further node, or node.field, to show in the page, with its values."),
-    ] = [],  # noqa: B006
-    size: Annotated[int, typer.Option(min=64, max=4096, help="Pixels of an output's longer side in the page.")] = 640,
-    crop: Annotated[str | None, typer.Option(metavar="X,Y,W,H", help="Window of the crops, in pixels.")] = None,
+    out: _Folder = Path("ablation"),
+    output: _Output = None,
+    truth: _Truth = None,
+    metric: _Metrics = [],  # noqa: B006
+    one_at_a_time: _OneAtATime = False,
+    node: _Nodes = [],  # noqa: B006
+    size: _Size = 640,
+    crop: _Crop = None,
     sets: Sets = [],  # noqa: B006
     replaces: Replaces = [],  # noqa: B006
     variants: Variants = [],  # noqa: B006
     profiles: Profiles = [],  # noqa: B006
     plugins: Plugins = [],  # noqa: B006
-    threads: Annotated[int, typer.Option(min=1, help="Nodes at once; 1 keeps node times undisturbed.")] = 1,
+    threads: _Threads = 1,
     cache: Cache = None,
     cache_size: CacheSize = None,
     memory: Memory = None,
@@ -64,11 +78,6 @@ def ablate(
     from graphface.ablation import ablate as run_ablation
     from graphface.ablation.figures import metrics_for
     from graphface.ablation.pictures import Pictures
-    from graphface.cache.memory import MemoryTier
-    from graphface.cli.options import load_graph
-    from graphface.document.flags import read_flag
-    from graphface.evaluate.evaluator import Evaluator
-    from graphface.settings import memory_budget
     from graphface.values.writing import make_folder
 
     box = _box(crop)
@@ -79,18 +88,9 @@ def ablate(
     truths = [_truth(base, declared, case, truth) for case in cases] if truth is not None else []
     base.targets(node)  # a name that is none is refused before anything runs
     make_folder(out)
-    said: list[str] = []
-    evaluator = Evaluator(
-        memory=MemoryTier(memory_budget(memory)), disk=open_cache(cache, said, cache_size), threads=threads
-    )
+    reports: list[str] = []
+    evaluator = open_evaluator(reports, cache, cache_size, memory, threads=threads)
     pictures = Pictures(evaluator, name, truths=truths, nodes=node, size=size)
-    loading = {
-        "set": dict(read_flag(text, "--set") for text in sets),
-        "replace": dict(text.split("=", 1) for text in replaces),
-        "variants": variants,
-        "profiles": profiles,
-        "registry": base.registry,  # plug-ins loaded again would be other code, and nothing of them shared
-    }
     done = run_ablation(
         graph,
         swap,
@@ -100,25 +100,30 @@ def ablate(
         metrics=metrics_for(declared, base.registry, metric) if truths else (),
         one_at_a_time=one_at_a_time,
         evaluator=evaluator,
-        loading=loading,
+        loading={**read_choices(sets, replaces, variants, profiles), "registry": base.registry},
         watcher=pictures,
     )
-    _show(done, pictures, out, box, said)
+    _write(done, pictures, out, box)
+    _show(done, out, reports)
 
 
-def _show(
-    done: Ablation, pictures: Pictures, out: Path, box: tuple[int, int, int, int] | None, said: list[str]
-) -> None:
-    """Write the table, the sheet and the page into the folder, and print the table and what went wrong."""
+def _write(done: Ablation, pictures: Pictures, out: Path, box: tuple[int, int, int, int] | None) -> None:
+    """Write the table, the sheet and the page into the folder."""
     from graphface.ablation.page import write_page
     from graphface.ablation.sheet import write_sheet
-    from graphface.ablation.table import as_csv, as_markdown, shown_columns
-    from graphface.report.terminal import print_table, print_warnings
+    from graphface.ablation.table import as_csv, as_markdown
 
     (out / "table.csv").write_text(as_csv(done), encoding="utf-8")
     (out / "table.md").write_text(as_markdown(done), encoding="utf-8")
     write_sheet(done, out / "sheet.png", crop=box)
     write_page(done, pictures, out / "index.html")
+
+
+def _show(done: Ablation, out: Path, reports: list[str]) -> None:
+    """Print the table and what went wrong."""
+    from graphface.ablation.table import shown_columns
+    from graphface.report.terminal import print_table, print_warnings
+
     columns = shown_columns(done)
     header = ("variant", *(f">{column.title}" for column in columns[1:]))
     marked = [[f"{text} *" if i in c.best else text for i, text in enumerate(c.texts)] for c in columns]
@@ -126,7 +131,7 @@ def _show(
     star = "* the best of its column; " if any(column.best for column in columns) else ""
     print(f"{star}{done.sharing}\nwrote table.csv, table.md, sheet.png and index.html to {out}/")
     failures = [f"{c.variant.name}: {c.failure}" for c in done.cells if c.failure]
-    print_warnings([*failures, *dict.fromkeys(w for c in done.cells for w in c.warnings), *said])
+    print_warnings([*failures, *dict.fromkeys(w for c in done.cells for w in c.warnings), *reports])
 
 
 def read_cases(pairs: list[str]) -> list[Mapping[str, Any]]:

@@ -10,14 +10,16 @@ import typer
 from graphface.cli.options import (
     Cache,
     CacheSize,
+    GuardName,
     Inputs,
     Memory,
     Plugins,
     Profiles,
     Replaces,
     Sets,
+    Threads,
     Variants,
-    open_cache,
+    open_evaluator,
 )
 
 if TYPE_CHECKING:
@@ -29,41 +31,50 @@ if TYPE_CHECKING:
     from graphface.report.difference.tolerance import Tolerance
 
 
+_SidesAB = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="A B",
+        help='Each a graph with flags in one word ("relight --set face/light.order=1"), a run.json, a report or a '
+        "result that carries its graph.",
+    ),
+]
+_Golden = Annotated[
+    Path | None,
+    typer.Option(metavar="DIR", help="Compare one run with the known-good values that run --dump DIR wrote."),
+]
+_Page = Annotated[
+    Path | None, typer.Option("-o", "--out", metavar="FILE.html", help="Write a page with pictures of all.")
+]
+_Share = Annotated[
+    float | None,
+    typer.Option(min=0, help="Differences up to this share of a value's range count as none: 0; --golden 1e-5."),
+]
+_Absolute = Annotated[
+    float | None, typer.Option(min=0, help="Instead of --tolerance: differences up to this count as none.")
+]
+_Outputs = Annotated[
+    list[str], typer.Option(metavar="NAME", help="Compare what this output, or any node.port, needs; default: all.")
+]
+_Size = Annotated[int, typer.Option(min=64, max=4096, help="Pixels of a picture's longer side in the page.")]
+
+
 def diff(
-    sides: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="A B",
-            help='Each a graph with flags in one word ("relight --set face/light.order=1"), a run.json, a report or a '
-            "result that carries its graph.",
-        ),
-    ],
+    sides: _SidesAB,
     inputs: Inputs = [],  # noqa: B006
-    golden: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", help="Compare one run with the known-good values that run --dump DIR wrote."),
-    ] = None,
-    out: Annotated[
-        Path | None, typer.Option("-o", "--out", metavar="FILE.html", help="Write a page with pictures of all.")
-    ] = None,
-    tolerance: Annotated[
-        float | None,
-        typer.Option(min=0, help="Differences up to this share of a value's range count as none: 0; --golden 1e-5."),
-    ] = None,
-    absolute: Annotated[
-        float | None, typer.Option(min=0, help="Instead of --tolerance: differences up to this count as none.")
-    ] = None,
-    output: Annotated[
-        list[str], typer.Option(metavar="NAME", help="Compare what this output, or any node.port, needs; default: all.")
-    ] = [],  # noqa: B006
+    golden: _Golden = None,
+    out: _Page = None,
+    tolerance: _Share = None,
+    absolute: _Absolute = None,
+    output: _Outputs = [],  # noqa: B006
     sets: Sets = [],  # noqa: B006
     replaces: Replaces = [],  # noqa: B006
     variants: Variants = [],  # noqa: B006
     profiles: Profiles = [],  # noqa: B006
     plugins: Plugins = [],  # noqa: B006
-    size: Annotated[int, typer.Option(min=64, max=4096, help="Pixels of a picture's longer side in the page.")] = 512,
-    threads: Annotated[int, typer.Option(min=0, help="Nodes that may run at once; 0: one per core.")] = 0,
-    guard: Annotated[str, typer.Option(help="What to do about NaN and infinity: off, warn or error.")] = "error",
+    size: _Size = 512,
+    threads: Threads = 0,
+    guard: GuardName = "error",
     cache: Cache = None,
     cache_size: CacheSize = None,
     memory: Memory = None,
@@ -72,32 +83,17 @@ def diff(
 
     Flags outside the quotes are for both sides. Exit code 0: nothing differs; 1: something does, or fails; 2: mistakes.
     """
-    import os
-
-    from graphface.cache.memory import MemoryTier
     from graphface.cli.sides import Flags
-    from graphface.errors import UsageError
-    from graphface.evaluate.evaluator import Evaluator
     from graphface.report.terminal import print_warnings
-    from graphface.settings import memory_budget
     from graphface.values.writing import check_folder
 
-    if len(sides) != (2 if golden is None else 1):
-        expected = "two sides, A and B, or one with --golden DIR" if golden is None else "one graph beside --golden DIR"
-        raise UsageError(f"expected {expected}; got {len(sides)} (put a graph and its flags in quotes)")
-    if guard not in ("off", "warn", "error"):
-        raise UsageError(f"--guard {guard!r}: expected off, warn or error")
+    _check_count(sides, golden)
     if out is not None:
         check_folder(out)
-    said: list[str] = []
-    evaluator = Evaluator(
-        memory=MemoryTier(memory_budget(memory)),
-        disk=open_cache(cache, said, cache_size),
-        threads=threads or os.cpu_count() or 1,
-        guard=guard,  # type: ignore[arg-type]
-    )
-    common = Flags(inputs, sets, replaces, variants, profiles, plugins)
+    reports: list[str] = []
+    evaluator = open_evaluator(reports, cache, cache_size, memory, threads=threads, guard=guard)
     allowed = _tolerance(tolerance, absolute, golden=golden is not None)
+    common = Flags(inputs, sets, replaces, variants, profiles, plugins)
     done = _compared(sides, golden, common, output, evaluator)
     found = done.differences(allowed)
     _show(found, sides)
@@ -106,9 +102,17 @@ def diff(
 
         write_page(done, found, out, size=size, titles=_titles(sides, golden))
         print(f"wrote {out}")
-    print_warnings(said)
+    print_warnings(reports)
     if found or found.failed_alike:
         raise typer.Exit(1)
+
+
+def _check_count(sides: list[str], golden: Path | None) -> None:
+    from graphface.errors import UsageError
+
+    if len(sides) != (2 if golden is None else 1):
+        expected = "two sides, A and B, or one with --golden DIR" if golden is None else "one graph beside --golden DIR"
+        raise UsageError(f"expected {expected}; got {len(sides)} (put a graph and its flags in quotes)")
 
 
 def _compared(

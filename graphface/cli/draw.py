@@ -82,16 +82,15 @@ def draw(
 
 
 def _format(name: str | None) -> Format | None:
-    from graphface.errors import UsageError, nearest_names
+    from graphface.errors import UsageError, did_you_mean, nearest_names
     from graphface.report.drawing.formats import FORMATS
 
     if name is None:
         return None
     found = next((known for known in FORMATS if known == name.lower()), None)
     if found is None:
-        near = nearest_names(name, list(FORMATS))
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise UsageError(f"--format {name!r}: it is one of {', '.join(FORMATS)}{hint}")
+        near = did_you_mean(nearest_names(name, list(FORMATS)))
+        raise UsageError(f"--format {name!r}: it is one of {', '.join(FORMATS)}{near}")
     return found
 
 

@@ -9,6 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from graphface.cache.disk import DiskTier
+    from graphface.evaluate.evaluator import Evaluator
     from graphface.facade import Graph
     from graphface.registry import Registry
 
@@ -46,6 +47,8 @@ Memory = Annotated[
     str | None,
     typer.Option("--memory", metavar="SIZE", help="What may be kept in memory: 4G, 500M (GRAPHFACE_MEMORY; 2GiB)."),
 ]
+Threads = Annotated[int, typer.Option("--threads", min=0, help="Nodes that may run at once; 0: one per core.")]
+GuardName = Annotated[str, typer.Option("--guard", help="What to do about NaN and infinity: off, warn or error.")]
 
 
 def load_graph(
@@ -65,17 +68,60 @@ def load_graph(
     Raises:
         DocumentError, UnreadableFile, PluginError: see `graphface.load`.
     """
-    from graphface.document.flags import read_flag
     from graphface.facade import load
 
-    return load(
-        graph,
-        set=dict(read_flag(text, "--set") for text in sets),
-        replace=dict(_pair(text, "--replace") for text in replaces),
-        variants=variants,
-        profiles=profiles,
-        plugins=plugins,
-        registry=registry,
+    return load(graph, **read_choices(sets, replaces, variants, profiles), plugins=plugins, registry=registry)
+
+
+def read_choices(sets: list[str], replaces: list[str], variants: list[str], profiles: list[str]) -> dict[str, Any]:
+    """Flags that change a graph, as `graphface.load` takes them.
+
+    Raises:
+        UsageError: one is not of the form that it must have.
+    """
+    from graphface.document.flags import read_flag
+
+    return {
+        "set": dict(read_flag(text, "--set") for text in sets),
+        "replace": dict(_pair(text, "--replace") for text in replaces),
+        "variants": variants,
+        "profiles": profiles,
+    }
+
+
+def open_evaluator(
+    reports: list[str],
+    cache: Path | None,
+    cache_size: str | None,
+    memory: str | None,
+    *,
+    threads: int = 0,
+    guard: str = "error",
+    keeps: bool = True,
+) -> Evaluator:
+    """An evaluator as the flags say.
+
+    Args:
+        reports: gets what its disk tier has to report.
+        threads: 0 for one per core. keeps: whether it has a memory tier.
+
+    Raises:
+        UsageError: a size that is none, or another guard.
+    """
+    import os
+
+    from graphface.cache.memory import MemoryTier
+    from graphface.errors import UsageError
+    from graphface.evaluate.evaluator import Evaluator
+    from graphface.settings import memory_budget
+
+    if guard not in ("off", "warn", "error"):
+        raise UsageError(f"--guard {guard!r}: expected off, warn or error")
+    return Evaluator(
+        memory=MemoryTier(memory_budget(memory)) if keeps else None,
+        disk=open_cache(cache, reports, cache_size),
+        threads=threads or os.cpu_count() or 1,
+        guard=guard,  # type: ignore[arg-type]
     )
 
 

@@ -122,8 +122,8 @@ def _dumped_before(folder: Path) -> list[str]:
     if not any(folder.iterdir()):
         return []
     try:
-        told = json.loads((folder / RUN).read_text(encoding="utf-8"))
-        return [str(entry["name"]) for entry in told["nodes"]]
+        trace = json.loads((folder / RUN).read_text(encoding="utf-8"))
+        return [str(entry["name"]) for entry in trace["nodes"]]
     except (OSError, ValueError, KeyError, TypeError):
         reason = f"{folder}: holds files that no --dump wrote; name a new folder, or an empty one"
         raise UsageError(reason) from None

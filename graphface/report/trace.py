@@ -127,8 +127,8 @@ def _origins(given: Iterable[Bound | None]) -> dict[str, Any]:
 
 def _origin(bound: Bound) -> dict[str, Any]:
     """Where an input came from; of a number or text also what it was, since no file tells."""
-    told: dict[str, Any] = {"origin": bound.origin, "digest": bound.digest.hex()}
-    return told | {"value": jsonable(bound.number)} if bound.is_number else told
+    origin: dict[str, Any] = {"origin": bound.origin, "digest": bound.digest.hex()}
+    return origin | {"value": jsonable(bound.number)} if bound.is_number else origin
 
 
 def jsonable(value: Any) -> Any:

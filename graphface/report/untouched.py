@@ -67,7 +67,7 @@ def _behind_declined(request: Request, records: Sequence[Record], had: Iterable[
 
 
 def _spread(request: Request, starts: Mapping[int, Reason], reasons: dict[int, Reason], had: set[int]) -> None:
-    """What stands only behind such a slot has the same reason; one that stands right behind a node, that node's."""
+    """Give the start slots their reasons, and what is only needed by one of them the same reason."""
     first = {slot: reason for slot, reason in starts.items() if slot not in had and slot not in reasons}
     reasons.update(first)
     stack = list(first)

@@ -129,12 +129,12 @@ def _irradiance(light: Any, normals: NDArray[Any]) -> NDArray[Any]:
     if isinstance(light, DirectionalLight):
         return np.maximum(normals @ light.towards, 0)[:, None]
     if isinstance(light, PointLight):
-        way = light.place - normals
-        distance = np.linalg.norm(way, axis=1)
-        cosine = np.sum(way * normals, axis=1) / np.maximum(distance, 1e-6)
+        offset = light.place - normals
+        distance = np.linalg.norm(offset, axis=1)
+        cosine = np.sum(offset * normals, axis=1) / np.maximum(distance, 1e-6)
         arrives = np.maximum(cosine, 0) * light.reach(distance.astype(np.float32))
         if isinstance(light, SpotLight):
-            angle = np.degrees(np.arccos(np.clip((-way @ light.axis) / np.maximum(distance, 1e-6), -1, 1)))
+            angle = np.degrees(np.arccos(np.clip((-offset @ light.axis) / np.maximum(distance, 1e-6), -1, 1)))
             arrives = arrives * np.clip((light.cone + light.penumbra - angle) / max(light.penumbra, 1e-3), 0, 1)
         return np.asarray(arrives[:, None])
     if isinstance(light, HarmonicLight):

@@ -51,9 +51,9 @@ def layer(sheet: Sheet, label: str, *, title: str = "") -> dict[str, Any]:
         "image": sheet.image,
     }
     if sheet.packed is not None and sheet.full is not None:
-        told = asdict(sheet.packed)
-        told["planes"] = list(sheet.planes)
-        made |= {"data": told, "full": list(sheet.full)}
+        packed = asdict(sheet.packed)
+        packed["planes"] = list(sheet.planes)
+        made |= {"data": packed, "full": list(sheet.full)}
     return made
 
 

@@ -100,8 +100,8 @@ class Comparison:
         both = len(one.needed.keys() & other.needed.keys())
         return Differences(
             self.labels,
-            _told(listed),
-            _told(below),
+            _inheriting_from_differing(listed),
+            _inheriting_from_differing(below),
             without_effect=idle,
             failed_alike=alike,
             compared=both,
@@ -139,9 +139,9 @@ class Comparison:
             origins = [next((b.origin for b in side.request.bound if b and b.name == name), "") for side in self.sides]
             return (Reason("input", node=name, old=origins[0], new=origins[1]),)
         found = list(changes(self._identities[0][name], self._identities[1][name], self._changed))
-        # what another input does to a node is told at the input, which is listed itself
-        told = [Reason("node above", r.node, r.port) if r.kind == "input" else r for r in found]
-        return tuple(told) or (Reason("lazy ports"),)
+        # what another input does to a node stands at the input, which is listed itself
+        reasons = [Reason("node above", r.node, r.port) if r.kind == "input" else r for r in found]
+        return tuple(reasons) or (Reason("lazy ports"),)
 
     def _absence(self, side: int, name: str) -> str:
         lacking = self.sides[side]
@@ -161,7 +161,7 @@ class Comparison:
         return self.sides[side].request.key(self.sides[side].needed[name])
 
 
-def _told(nodes: list[NodeDifference]) -> list[NodeDifference]:
+def _inheriting_from_differing(nodes: list[NodeDifference]) -> list[NodeDifference]:
     """The same, each inheriting only from nodes whose values differ; where there are none of those, from all."""
     differing = {node.name for node in nodes}
 

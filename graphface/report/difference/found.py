@@ -9,7 +9,7 @@ from html import escape
 from graphface.evaluate.reason import Reason
 from graphface.report.difference.node import NodeDifference
 from graphface.report.difference.tolerance import EXACT, Tolerance
-from graphface.report.difference.words import HEADER, row, short, told_in_full
+from graphface.report.difference.words import HEADER, in_full, row, short
 
 
 @dataclass(frozen=True)
@@ -59,15 +59,17 @@ class Differences:
     def summary(self) -> str:
         """How many nodes differ, and how many were not even looked at."""
         both = sum(node.kind in ("values", "failed") for node in self.nodes)
-        told = [f"{both} of {self.compared} nodes differ" if both else f"no node of {self.compared} differs"]
+        phrases = [f"{both} of {self.compared} nodes differ" if both else f"no node of {self.compared} differs"]
         if alone := len(self.nodes) - both:
-            told.append(f"{alone} on one side only")
+            phrases.append(f"{alone} on one side only")
         if self.below:
             largest = max(node.relative for node in self.below)
-            told.append(f"{len(self.below)} differ within the tolerance of {self.tolerance} (up to {short(largest)})")
+            phrases.append(
+                f"{len(self.below)} differ within the tolerance of {self.tolerance} (up to {short(largest)})"
+            )
         if self.equal:
-            told.append(f"{self.equal} have the same key: nothing to compare")
-        return "; ".join(told)
+            phrases.append(f"{self.equal} have the same key: nothing to compare")
+        return "; ".join(phrases)
 
     @property
     def notes(self) -> list[str]:
@@ -81,7 +83,7 @@ class Differences:
         """The first node that differs, in full."""
         if self.first is None:
             return []
-        first, *others = told_in_full(self.first)
+        first, *others = in_full(self.first)
         return [f"first difference: {first}", *others]
 
     def _repr_html_(self) -> str:

@@ -22,7 +22,7 @@
     const bar = make("span", {className: "bar"});
     bar.style.width = `${100 * share(node)}%`;
     const entry = make("button", {type: "button", title: node.cause, onclick: () => open(index)},
-      make("span", {className: "name"}, node.name), make("span", {className: "told"}, node.told),
+      make("span", {className: "name"}, node.name), make("span", {className: "short"}, node.short),
       make("span", {className: "track"}, bar));
     if (node.caused) entry.append(make("span", {className: "changed"}, "changed here"));
     entry.classList.toggle("caused", node.caused);
@@ -92,7 +92,7 @@
       row.append(canvas);
       seen.observe(canvas);
       column.append(make("h2", {}, make("a", {href: "#", onclick: event => { event.preventDefault(); open(index); }}, node.name),
-        make("span", {className: "told"}, ` ${node.told}`), node.caused ? make("span", {className: "changed"}, ` ${node.cause}`) : ""), row);
+        make("span", {className: "short"}, ` ${node.short}`), node.caused ? make("span", {className: "changed"}, ` ${node.cause}`) : ""), row);
     });
   }
 

@@ -113,7 +113,7 @@ class _Drawn:
             "caused": bool(node.caused),
             "above": list(dict.fromkeys(r.node for r in node.reasons if r.kind == "node above")),
             "size": None if math.isinf(relative) else relative,
-            "told": _told(node, relative),
+            "short": _in_short(node, relative),
             "parts": [[part.path, measured(part), place(part)] for part in node.parts[:12]],
             "panels": list(self._panels(node, values)),
         }
@@ -179,7 +179,7 @@ class _Missing:
         self.why = why
 
 
-def _told(node: NodeDifference, relative: float) -> str:
+def _in_short(node: NodeDifference, relative: float) -> str:
     """The difference in a word or a figure, for the list."""
     if node.kind != "values":
         return {"failed": "fails", "only here": "new", "only there": "gone"}[node.kind]

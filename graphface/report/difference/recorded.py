@@ -65,16 +65,16 @@ def bound_again(graph: WiredGraph, recorded: Recorded, given: Mapping[str, Any])
     if recorded.pinned:
         raise UsageError(f"{recorded.path}: values were given for {', '.join(recorded.pinned)}; compare a run without")
     inputs = dict(given)
-    for name, told in recorded.inputs.items():
+    for name, before in recorded.inputs.items():
         if name in graph.inputs and name not in given:
-            inputs[name] = _again(graph, recorded, name, told)
+            inputs[name] = _again(graph, recorded, name, before)
     return inputs
 
 
-def _again(graph: WiredGraph, recorded: Recorded, name: str, told: Mapping[str, Any]) -> Bound:
-    if "value" in told:
-        return graph.bind({name: told["value"]})[name]
-    origin, digest = str(told.get("origin")), told.get("digest")
+def _again(graph: WiredGraph, recorded: Recorded, name: str, before: Mapping[str, Any]) -> Bound:
+    if "value" in before:
+        return graph.bind({name: before["value"]})[name]
+    origin, digest = str(before.get("origin")), before.get("digest")
     default = graph.bind({}).get(name)
     if default is not None and default.digest.hex() == digest:
         return default

@@ -31,22 +31,22 @@ def measured(part: PartDifference) -> str:
     """How far a part is apart, and where."""
     if part.words:
         return part.words
-    told = []
+    phrases = []
     if part.non_finite:
-        told.append(f"{part.non_finite} values are not finite on one side only")
+        phrases.append(f"{part.non_finite} values are not finite on one side only")
     if part.greatest > 0:
         noise = f", PSNR {part.psnr:.1f} dB" if part.psnr is not None else ""
-        told.append(
+        phrases.append(
             f"by up to {short(part.greatest)} of a range of {short(part.span)} (mean {short(part.mean)}{noise})"
         )
     if part.box is not None:
         left, top, width, height = part.box
         everywhere = (height, width) == part.shape[:2]
         where = "" if everywhere else f", within x {left}..{left + width - 1}, y {top}..{top + height - 1}"
-        told.append(f"{percent(part.share)} of pixels{where}")
+        phrases.append(f"{percent(part.share)} of pixels{where}")
     elif len(part.position) > 0:
-        told.append(f"{percent(part.share)} of values")
-    return "; ".join(told)
+        phrases.append(f"{percent(part.share)} of values")
+    return "; ".join(phrases)
 
 
 def place(part: PartDifference) -> str:
@@ -74,7 +74,7 @@ def title(node: NodeDifference) -> str:
     return f"{node.name} ({both})" if both else node.name
 
 
-def told_in_full(node: NodeDifference) -> list[str]:
+def in_full(node: NodeDifference) -> list[str]:
     """A node in lines: what was changed there, by how much it differs and where."""
     lines = [title(node)]
     if cause(node):

@@ -147,15 +147,15 @@ def _tooltip(node: Node) -> str:
 
 def _ports(left: Port | None, right: Port | None, width: float) -> Iterator[str]:
     """One row: an input on the left side, an output on the right."""
-    room = width - 2 * INSET - (12 if left is not None and right is not None else 0)
-    of_left = fitted(left.text, room, PORT_SIZE) if left is not None else ""
+    space = width - 2 * INSET - (12 if left is not None and right is not None else 0)
+    of_left = fitted(left.text, space, PORT_SIZE) if left is not None else ""
     if left is not None and right is not None:
-        of_left = fitted(left.text, max(room / 2, room - text_width(right.text, PORT_SIZE)), PORT_SIZE)
+        of_left = fitted(left.text, max(space / 2, space - text_width(right.text, PORT_SIZE)), PORT_SIZE)
     if left is not None:
         yield _dot(left, 0.0)
         yield f'<text class="port" x="{INSET:g}" y="{left.y + 3.7:g}">{escape(of_left)}</text>'
     if right is not None:
-        of_right = fitted(right.text, room - text_width(of_left, PORT_SIZE), PORT_SIZE)
+        of_right = fitted(right.text, space - text_width(of_left, PORT_SIZE), PORT_SIZE)
         yield _dot(right, width)
         yield f'<text class="port out" x="{width - INSET:g}" y="{right.y + 3.7:g}">{escape(of_right)}</text>'
 
@@ -167,30 +167,30 @@ def _dot(port: Port, x: float) -> str:
 
 def _below(node: Node, width: float) -> Iterator[str]:
     """Under the ports: thumbnail, declared outputs, what the mark says, heat."""
-    y, room = node.below_ports + 2, width - 2 * INSET
+    y, space = node.below_ports + 2, width - 2 * INSET
     if node.thumbnail:
         if node.thumbnail.startswith("data:image/"):
             yield (
-                f'<image x="{INSET:g}" y="{y + 2:g}" width="{room:g}" height="{THUMBNAIL:g}" '
+                f'<image x="{INSET:g}" y="{y + 2:g}" width="{space:g}" height="{THUMBNAIL:g}" '
                 f'href="{escape(node.thumbnail)}"/>'
             )
         y += THUMBNAIL + 6
     if node.results:
-        yield _text("output", INSET, y + 11, f"▸ {', '.join(node.results)}", room, TEXT_SIZE, bold=True)
+        yield _text("output", INSET, y + 11, f"▸ {', '.join(node.results)}", space, TEXT_SIZE, bold=True)
         y += LINE
     mark = node.mark
     for line in node.words:
-        yield _text("reason", INSET, y + 11, line, room, PORT_SIZE)
+        yield _text("reason", INSET, y + 11, line, space, PORT_SIZE)
         y += LINE
     if mark is not None and mark.heat is not None:
         share = min(max(mark.heat, 0.0), 1.0)
         yield (
-            f'<rect class="cold" x="{INSET:g}" y="{y + 1:g}" width="{room:g}" height="{BAR - 2:g}" rx="2"/>'
-            f'<rect class="heat" x="{INSET:g}" y="{y + 1:g}" width="{room * share:.1f}" height="{BAR - 2:g}" rx="2" '
+            f'<rect class="cold" x="{INSET:g}" y="{y + 1:g}" width="{space:g}" height="{BAR - 2:g}" rx="2"/>'
+            f'<rect class="heat" x="{INSET:g}" y="{y + 1:g}" width="{space * share:.1f}" height="{BAR - 2:g}" rx="2" '
             f'fill="{heat_color(share)}"/>'
         )
 
 
-def _text(kind: str, x: float, y: float, text: str, room: float, size: float, *, bold: bool = False) -> str:
+def _text(kind: str, x: float, y: float, text: str, space: float, size: float, *, bold: bool = False) -> str:
     """A line of text that is cut where it would run out of its box."""
-    return f'<text class="{kind}" x="{x:g}" y="{y:g}">{escape(fitted(text, room, size, bold=bold))}</text>'
+    return f'<text class="{kind}" x="{x:g}" y="{y:g}">{escape(fitted(text, space, size, bold=bold))}</text>'

@@ -1,4 +1,4 @@
-"""The page of a run: model, drawing, styles and scripts in one file that asks nobody for anything.
+"""The page of a run: model, drawing, styles and scripts in one file that loads nothing from elsewhere.
 
 Texts of graphs, parameters and files are only in JSON, which the script puts on the page as text; the drawing escapes
 its own. A content security policy backs that up: browsers run this one script, known by its hash, and load nothing.

@@ -1,4 +1,4 @@
-"""The run inside a report: what `--trace` would have written, for who compares runs."""
+"""The run inside a report: what `--trace` would have written, for comparing runs."""
 
 from __future__ import annotations
 

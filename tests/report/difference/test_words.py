@@ -8,7 +8,7 @@ import pytest
 
 from graphface.report.difference.compare import Comparison
 from graphface.report.difference.values import PartDifference
-from graphface.report.difference.words import HEADER, cause, measured, percent, place, row, short, told_in_full
+from graphface.report.difference.words import HEADER, cause, in_full, measured, percent, place, row, short
 
 
 @pytest.mark.parametrize(
@@ -43,4 +43,4 @@ def test_rows(compared: Callable[..., Comparison]) -> None:
     nodes = compared(set={"s.by": 4}).differences().nodes
     assert [len(row(node)) for node in nodes] == [len(HEADER)] * 4
     assert [cause(node) for node in nodes[:2]] == ["parameter by changed from 3.0 to 4.0", "inherited from s"]
-    assert told_in_full(nodes[0])[:2] == ["s (toy.scale)", "    parameter by changed from 3.0 to 4.0"]
+    assert in_full(nodes[0])[:2] == ["s (toy.scale)", "    parameter by changed from 3.0 to 4.0"]
