@@ -27,7 +27,7 @@ _PALETTE = {
     "pink": (250, 130, 190),
     "white": (250, 250, 250),
 }
-_LETTERS_FROM = 400
+_LETTERS_FROM = 160
 """Pixels of a picture's shorter side from which the parts are named in it."""
 
 
@@ -101,7 +101,7 @@ def _parts(
     pixels = tinted(backdrop(view, full, shown), weights, [color for _, color in colors.values()])
     data = np.stack(list(seen.values()), axis=2)
     mark_odd(pixels, data)
-    if min(shown) >= _LETTERS_FROM:
+    if view.size is None and min(shown) >= _LETTERS_FROM:  # a page shows the note beside the picture, a file does not
         pixels = _with_legend(pixels, colors)
     note = ", ".join(f"{name.replace('_', ' ')} {word}" for name, (word, _) in colors.items())
     note += f"; {rest} is left as it is" if rest else ""

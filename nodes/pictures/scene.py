@@ -62,17 +62,39 @@ def _plan(
     viewer = middle + axes @ np.array([0.0, 0.0, 1.0]) * rim * 1.13
     write(pen, (viewer[0] - letters * 0.55, viewer[1] - letters * 0.6), "cam", letters * 3 // 4, width=99, color=_FAINT)
     write(pen, (left + 4, top + 2), title, letters, width=side - 8, color=_INK)
+    taken: list[NDArray[Any]] = []
     for number, light in enumerate(scene.lights):
         if isinstance(light, DirectionalLight | PointLight):
-            _lamp(pen, light, number, middle, rim, axes, letters)
+            place = light.towards * 1e6 if isinstance(light, DirectionalLight) else light.place
+            spot = middle + rim * _shortened(axes @ np.asarray(place, np.float64), float(np.linalg.norm(place)))
+            taken.append(_beside_others(spot, middle, taken, 2 * _lamp_radius(rim)))
+            _lamp(pen, light, number, taken[-1], middle, rim, axes)
+
+
+def _lamp_radius(rim: float) -> float:
+    return max(3.0, rim * 0.07)
+
+
+def _beside_others(spot: NDArray[Any], middle: NDArray[Any], taken: list[NDArray[Any]], apart: float) -> NDArray[Any]:
+    """A lamp's place in a plan; beside lamps that are drawn there already, since seen from a side they may coincide."""
+    out = spot - middle
+    length = float(np.hypot(*out))
+    across = np.array([-out[1], out[0]]) / length if length > 1e-6 else np.array([1.0, 0.0])
+    while any(np.hypot(*(spot - other)) < apart for other in taken):
+        spot = spot + across * apart
+    return spot
 
 
 def _lamp(
-    pen: ImageDraw.ImageDraw, light: Any, number: int, middle: NDArray[Any], rim: float, axes: NDArray[Any], size: int
+    pen: ImageDraw.ImageDraw,
+    light: Any,
+    number: int,
+    spot: NDArray[Any],
+    middle: NDArray[Any],
+    rim: float,
+    axes: NDArray[Any],
 ) -> None:
     color = lamp_color(light)
-    place = light.towards * 1e6 if isinstance(light, DirectionalLight) else light.place
-    spot = middle + rim * _shortened(axes @ np.asarray(place, np.float64), float(np.linalg.norm(place)))
     target = np.zeros(3)
     if isinstance(light, SpotLight):
         target = np.asarray(light.target, np.float64)
@@ -85,7 +107,7 @@ def _lamp(
             pen.line((*(spot + shift * across), *(spot + shift * across + 0.5 * along)), color)
     else:
         pen.line((*spot, *(spot + 0.5 * (middle - spot))), _FAINT)
-    radius = max(3.0, rim * 0.07)
+    radius = _lamp_radius(rim)
     pen.ellipse((*(spot - radius), *(spot + radius)), color, outline=_INK)
     pen.text(tuple(spot), str(number + 1), (0, 0, 0), font(max(8, round(radius * 1.5))), anchor="mm")
 

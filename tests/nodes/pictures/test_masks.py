@@ -46,8 +46,9 @@ def test_head_masks():
 
 
 def test_legend():
-    """A picture with room for it names the parts; the names are told in the note as well."""
+    """A picture for a file names the parts in it; one for a page has the names in its note only."""
     regions = Regions(**{name: np.zeros((400, 400), np.float32) for name in REGIONS})
-    picture = draw_regions(regions, View())
+    picture, paged = draw_regions(regions, View()), draw_regions(regions, View(400))
     assert len(np.unique(picture.pixels.reshape(-1, 3), axis=0)) > 9
+    assert len(np.unique(paged.pixels.reshape(-1, 3), axis=0)) == 1
     assert all(name.replace("_", " ") in picture.note for name in REGIONS)

@@ -55,3 +55,12 @@ def test_lamp_color():
     """A dim lamp has its full color; one without light is dark."""
     assert lamp_color(DirectionalLight(intensity=0.01, color=RED))[0] == 255
     assert max(lamp_color(DirectionalLight(intensity=0))) < 40
+
+
+def test_lamps_that_coincide():
+    """Lamps that stand behind each other, seen from the side, are drawn beside each other: none hides another."""
+    blue = (0.1, 0.2, 1.0)
+    lights = (PointLight(azimuth=-60, distance=4, color=RED), PointLight(azimuth=60, distance=4, color=blue))
+    side = draw_scene(Scene(lights=lights), View(600)).pixels[:300, 300:].astype(int)
+    assert ((side[..., 0] > 200) & (side[..., 1] < 60)).sum() > 20
+    assert ((side[..., 2] > 200) & (side[..., 0] < 130)).sum() > 20
