@@ -1,9 +1,10 @@
-"""The color of dark skin: no more saturated than the same skin where it is lit.
+"""The color of dark skin: that of the same skin where it is lit.
 
-The tone curves of cameras and editors make dark pixels more saturated than bright ones of the same material, and in
-creases light is reddened by the skin that it was reflected from. Both belong to the photo and not to the albedo: light
-added to such a pixel in its own color would make it glow orange. The photo itself does not change, because the detail
-map takes up what the albedo loses.
+The tone curves of cameras and editors make dark pixels more saturated than bright ones of the same material, creases
+are reddened by the skin around them, a collar's bounce colors a jaw, and a shadow has the color of the second light in
+the room. All this belongs to the photo's light and not to the albedo: light added to such a pixel in its own color
+would make it glow orange, magenta or purple. The photo itself does not change, because the detail map takes up what the
+albedo loses.
 """
 
 from __future__ import annotations
@@ -16,60 +17,115 @@ from pydantic import Field
 from graphface import Formerly, node
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean, in_three_channels
-from graphface.nodes.face_scale import face_scale
+from graphface.nodes.face_outlines import EYES, LIPS
+from graphface.nodes.face_scale import FaceScale, face_scale
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, FloatArray, Image, Landmarks, Mask
 
 _LEAST = np.float32(1e-3)
 
+_REGION = 0.15
+"""Standard deviation of the averages over dark skin, in inter-ocular distances."""
 
-@node("albedo.shadow_color", formerly=("albedo.shadow_colour",))
+_LARGEST_FACTOR = np.float32(2.5)
+"""Of one channel against the others: skin under a second light is never farther from lit skin."""
+
+_MARGIN = 0.05
+"""Width around eyes and lips that counts with them, in inter-ocular distances."""
+
+
+@node("albedo.shadow_color", version=2, formerly=("albedo.shadow_colour",))
 def shadow_color(
     albedo: Albedo,
     photo: Image,
     mask: Mask,
     landmarks: Landmarks,
+    face: Mask | None = None,
     *,
-    threshold: Annotated[float, Field(gt=0, le=1), Formerly("dark")] = 0.8,
-    sigma: Annotated[float, Field(gt=0, le=5), Formerly("reach")] = 0.3,
+    threshold: Annotated[float, Field(gt=0, le=3), Formerly("dark")] = 1.3,
+    black: Annotated[float, Field(gt=0, le=3)] = 0.8,
+    sigma: Annotated[float, Field(gt=0, le=5), Formerly("reach")] = 1.0,
     resolution: Annotated[int, Field(ge=8, le=256)] = 24,
 ) -> Albedo:
-    """Limit the saturation of an albedo at dark pixels to that of the lit skin around; brightness and hue stay.
+    """Give dark skin the color of the lit skin around; brightness stays.
+
+    In proportion to how dark a pixel is against lit skin, the mean color of the dark skin around is adapted to that of
+    lit skin (von Kries: one factor a channel), so freckles and blush go on differing from what surrounds them, and the
+    saturation is limited to that of lit skin. A pixel so dark that its own color says nothing takes lit skin's. Eyes
+    and lips have colors of their own: only their saturation is limited.
 
     Args:
         albedo: of an intrinsic method, H x W x 3.
         photo: the picture that it was computed from.
-        mask: the face, H x W; the averages are taken over it.
-        threshold: share of the mean brightness around below which the limit begins to apply; at half of it, it applies
+        mask: the face by its geometry, H x W; lit skin is averaged over it.
+        face: where skin is, H x W, such as the label face; nothing else changes. None takes all for skin.
+        threshold: share of lit skin's brightness below which a pixel begins to count as dark; at half of it, it counts
             in full.
-        sigma: standard deviation of the averages, in inter-ocular distances.
+        black: the same, for pixels that take the color of lit skin altogether.
+        sigma: standard deviation of the averages over lit skin, in inter-ocular distances.
         resolution: pixels per inter-ocular distance of the copy on which averages are taken.
     """
     copy = face_scale(landmarks, albedo.shape, resolution)
-    width = max(sigma * copy.interocular, 0.5)
-    in_face = copy.down(mask) + _LEAST
-    brightness, saturation = _mean_and_saturation(copy.down(photo.pixels))
-    weight = in_face * np.square(brightness) + np.float32(1e-9)
-    sums = blurred(np.dstack([weight, weight * brightness, weight * saturation]), width)
-    mean_around, limit = (copy.up(sums[..., n] / sums[..., 0]) for n in (1, 2))
+    small, skin = copy.down(photo.pixels), copy.down(mask)
+    bare = 1 - _eyes_and_lips(landmarks, copy)
+    own_face = np.ones_like(skin) if face is None else copy.down(face)
+    usual, limit, lit = _lit_skin(small, skin * own_face * bare + _LEAST, max(sigma * copy.interocular, 0.5))
+    dark = _darkness(channel_mean(small), usual, threshold) * own_face * bare
+    factors = copy.up(_adaptation(small, lit, dark, copy) * in_three_channels(bare))
+    usual, limit, lit, bare = copy.up(usual), copy.up(limit), copy.up(lit), copy.up(bare)
     result = np.empty_like(albedo)
 
     def strip(rows: slice) -> None:
-        grey, own = _mean_and_saturation(albedo[rows])
-        share = _mean_and_saturation(photo.pixels[rows])[0]
-        share /= np.maximum(mean_around[rows], _LEAST)
-        share *= np.float32(-2 / threshold)
-        share += 2
-        np.clip(share, 0, 1, out=share)
-        # own - share * max(own - limit, 0), as a factor of own
-        reduction = np.maximum(own - limit[rows], 0)
-        reduction *= share
-        reduction /= np.maximum(own, _LEAST)
-        mean = in_three_channels(grey)
-        result[rows] = mean + in_three_channels(1 - reduction) * (albedo[rows] - mean)
+        brightness, grey = channel_mean(photo.pixels[rows]), channel_mean(albedo[rows])
+        is_face = np.float32(1) if face is None else face[rows]
+        share = _darkness(brightness, usual[rows], threshold) * is_face
+        adapted = albedo[rows] * np.exp(factors[rows] * in_three_channels(share))
+        adapted = _less_saturated(adapted, limit[rows], share)
+        adapted *= in_three_channels(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)))
+        share = _darkness(brightness, usual[rows], black) * is_face * bare[rows]
+        result[rows] = adapted + in_three_channels(share) * (in_three_channels(grey) * lit[rows] - adapted)
 
     by_strips(strip, result.shape)
     return result
+
+
+def _lit_skin(small: FloatArray, skin: FloatArray, sigma: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Brightness h x w, saturation h x w and color over brightness h x w x 3 of the skin around, bright pixels most."""
+    brightness, saturation = _mean_and_saturation(small)
+    weight = skin * np.square(brightness) + np.float32(1e-9)
+    sums = blurred(np.dstack([weight, weight * brightness, weight * saturation]), sigma)
+    color = small / in_three_channels(np.maximum(brightness, _LEAST))
+    lit = blurred(color * in_three_channels(weight), sigma) / sums[..., :1]
+    lit /= in_three_channels(np.maximum(channel_mean(lit), _LEAST))
+    return sums[..., 1] / sums[..., 0], sums[..., 2] / sums[..., 0], lit
+
+
+def _darkness(brightness: FloatArray, usual: FloatArray, threshold: float) -> FloatArray:
+    """0 where a pixel has at least the share `threshold` of the usual brightness, 1 where it has at most half of it."""
+    share = brightness / np.maximum(usual, _LEAST)
+    share *= np.float32(-2 / threshold)
+    share += 2
+    return np.asarray(np.clip(share, 0, 1, out=share), np.float32)
+
+
+def _adaptation(small: FloatArray, lit: FloatArray, dark: FloatArray, copy: FaceScale) -> FloatArray:
+    """Logarithms, h x w x 3, of the factors from the mean color of the dark skin around to that of lit skin."""
+    weight = dark + np.float32(1e-4)
+    color = small / in_three_channels(np.maximum(channel_mean(small), _LEAST))
+    sigma = max(_REGION * copy.interocular, 0.5)
+    own = blurred(color * in_three_channels(weight), sigma) / in_three_channels(blurred(weight, sigma))
+    factors = np.maximum(lit, _LEAST) / np.maximum(own, _LEAST)
+    return np.asarray(np.log(np.clip(factors, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR)), np.float32)
+
+
+def _less_saturated(color: FloatArray, limit: FloatArray, share: FloatArray) -> FloatArray:
+    """Colors whose saturation beyond the limit is reduced by a share of the excess."""
+    mean, own = _mean_and_saturation(color)
+    reduction = np.maximum(own - limit, 0)
+    reduction *= share
+    reduction /= np.maximum(own, _LEAST)
+    grey = in_three_channels(mean)
+    return grey + in_three_channels(1 - reduction) * (color - grey)
 
 
 def _mean_and_saturation(pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -77,3 +133,21 @@ def _mean_and_saturation(pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
     mean = channel_mean(pixels)
     least = np.minimum(np.minimum(pixels[..., 0], pixels[..., 1]), pixels[..., 2])
     return mean, np.maximum(1 - least / np.maximum(mean, _LEAST), 0)
+
+
+def _eyes_and_lips(landmarks: Landmarks, copy: FaceScale) -> FloatArray:
+    """Soft mask, h x w, on the small copy; 0 everywhere for other landmarks than FaceMesh's."""
+    import cv2
+
+    drawn = np.zeros(copy.size, np.float32)
+    points = landmarks.points[:, :2] * np.float32(copy.scale)
+    if landmarks.scheme != "facemesh468":
+        return drawn
+    margin = 2 * max(1, round(2 * _MARGIN * copy.interocular) // 2)
+    for outline in (*EYES, LIPS):
+        corners = points[list(outline)]
+        if np.isfinite(corners).all() and np.abs(corners).max() < 1 << 20:
+            polygon = np.round(corners * 16).astype(np.int32)
+            cv2.fillPoly(drawn, [polygon], 1.0, cv2.LINE_8, 4)
+            cv2.polylines(drawn, [polygon], True, 1.0, margin, cv2.LINE_8, 4)
+    return blurred(drawn, max(_MARGIN / 2 * copy.interocular, 0.5))

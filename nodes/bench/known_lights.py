@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import load
+from graphface import UsageError, load
+from graphface.errors import did_you_mean, nearest_names
 from graphface.evaluate.session import Session
 from graphface.nodes.bench.known_light_cases import Case
 from graphface.nodes.bench.metered import MeteredEvaluator
@@ -61,6 +62,20 @@ VARIANTS = (
     Variant("geometry.facemesh", replace={"face/mesh": "geometry.facemesh"}),
     Variant("linear values", set={"face/working.encoding": "linear"}),
 )
+
+
+def chosen_variants(names: Sequence[str] | None) -> list[Variant]:
+    """The variants of these names, all of them for `["all"]`; the shipped graph by default.
+
+    Raises:
+        UsageError: there is no such variant.
+    """
+    known = {v.name: v for v in VARIANTS}
+    asked = list(known) if names == ["all"] else names or [VARIANTS[0].name]
+    for name in asked:
+        if name not in known:
+            raise UsageError(f"unknown variant {name!r}{did_you_mean(nearest_names(name, known))}")
+    return [known[name] for name in asked]
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface import UsageError
+from graphface.errors import did_you_mean, nearest_names
+
 
 def astronaut() -> NDArray[np.uint8]:
     """Eileen Collins (NASA): uint8, 512 x 512 x 3."""
@@ -21,3 +24,17 @@ def shipped_scenes() -> list[Path]:
     import graphface.graphs
 
     return sorted((Path(graphface.graphs.__file__ or "").parent / "scenes").glob("*.yaml"))
+
+
+def scene_file(name: str) -> Path:
+    """A scene by the name of a shipped one, or by its path.
+
+    Raises:
+        UsageError: it is neither.
+    """
+    shipped = {path.stem: path for path in shipped_scenes()}
+    if name in shipped:
+        return shipped[name]
+    if not Path(name).is_file():
+        raise UsageError(f"no scene {name!r}: neither shipped nor a file{did_you_mean(nearest_names(name, shipped))}")
+    return Path(name)

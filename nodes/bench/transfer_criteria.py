@@ -14,7 +14,7 @@ from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.bench.pair_cost import transfer_ms
 from graphface.nodes.bench.transfer_truth import reinhard
 from graphface.nodes.color import channel_mean
-from graphface.nodes.makeup.features import EYES, LIPS, MOUTH, NOSE
+from graphface.nodes.face_outlines import EYES, LIPS, MOUTH, NOSE
 from graphface.nodes.types import Features, FloatArray, Image, Landmarks, Mask
 
 _FEATURE_POINTS = sorted({*EYES[0], *EYES[1], *LIPS, *MOUTH, *NOSE})

@@ -17,7 +17,7 @@ from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Image, Landmarks
+from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
 
 _LEAST = np.float32(1e-3)
 
@@ -31,6 +31,7 @@ pixels."""
 def unclipped(
     photo: Image,
     landmarks: Landmarks,
+    face: Mask | None = None,
     *,
     begin: Annotated[float, Field(ge=0, le=1)] = 0.94,
     end: Annotated[float, Field(ge=0, le=1)] = 0.99,
@@ -41,6 +42,8 @@ def unclipped(
     """The photo with clipped channels raised beyond 1, to the color around them at the pixel's own brightness.
 
     Args:
+        face: where skin is, H x W; nothing else is raised. A white wall or a lamp is not skin that lost its color, and
+            in the color of a face it would be a stain. None raises every clipped pixel.
         begin, end: values between which the confidence in a channel falls from 1 to 0. JPEG leaves clipped pixels some
             steps below 1.
         sigma: standard deviation of the average color around, in inter-ocular distances.
@@ -79,6 +82,8 @@ def unclipped(
         brightness = (known * part).sum(axis=1) / np.maximum((known * color).sum(axis=1), _LEAST)
         wanted = np.clip(color * brightness[:, None], part, part * np.float32(largest_gain))
         certainty = np.minimum(known.sum(axis=1), 1)[:, None]
+        if face is not None:
+            certainty *= face[rows].reshape(-1, 1).take(places, axis=0)
         raised[rows].reshape(-1, 3)[places] = part + (1 - known) * certainty * (wanted - part)
 
     by_strips(reconstruct, raised.shape)

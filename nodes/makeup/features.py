@@ -11,38 +11,8 @@ from pydantic import Field
 from graphface import UsageError, node, warn
 from graphface.nodes.blur import blurred
 from graphface.nodes.bounding_box import Box
+from graphface.nodes.face_outlines import BROWS, CHEEKS, EYES, LIDS, LIPS, MOUTH, NOSE
 from graphface.nodes.types import Features, FloatArray, Image, Landmarks
-
-# Indices of FaceMesh points along each outline; first the person's right side (the picture's left), then the left.
-EYES = (
-    (33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246),
-    (263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466),
-)
-
-
-LIDS = (
-    (46, 53, 52, 65, 55, 226, 31, 228, 229, 230, 231, 232, 233, 244),
-    (276, 283, 282, 295, 285, 446, 261, 448, 449, 450, 451, 452, 453, 464),
-)
-
-
-BROWS = (
-    (70, 63, 105, 66, 107, 55, 65, 52, 53, 46),
-    (300, 293, 334, 296, 336, 285, 295, 282, 283, 276),
-)
-
-
-CHEEKS = ((117, 50, 36, 205, 187, 147, 123, 116), (346, 280, 266, 425, 411, 376, 352, 345))
-
-
-LIPS = (61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 409, 270, 269, 267, 0, 37, 39, 40, 185)
-
-
-MOUTH = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308, 415, 310, 311, 312, 13, 82, 81, 80, 191)
-
-
-NOSE = (168, 122, 174, 198, 209, 49, 64, 98, 97, 2, 326, 327, 294, 279, 429, 420, 399, 351)
-
 
 _FRACTION_BITS = 4
 """Of the fixed-point coordinates that OpenCV draws with."""

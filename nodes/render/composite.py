@@ -14,6 +14,7 @@ def _needs(scene: Scene) -> Needs:
     return {
         "labels": scene.background != 1 or "the scene lights the background like the face (background: 1)",
         "shine": scene.hair != 0 or "the scene lights hair like the face (hair: 0)",
+        "lamps": scene.background > 0 or "the scene does not light the background (background: 0)",
         "response": scene.background != 1 or "without labels all is lit like the face (background: 1)",
     }
 
@@ -26,6 +27,7 @@ def composite(
     labels: Lazy[Segmentation] = None,
     shine: Lazy[Mask] = None,
     response: Lazy[Mask] = None,
+    lamps: Lazy[Mask] = None,
 ) -> Shading:
     """The face gets the new shading, the background a constant mixture, bright hair keeps more of the old shading.
 
@@ -36,13 +38,14 @@ def composite(
         estimated, relit: shading of the whole picture under the photo's own and the new light; H x W or H x W x 3.
         scene: `scene.hair` is the share of the old shading that the brightest hair keeps, `scene.background` the share
             of the new shading on the background.
+        lamps: what gives light itself, H x W; it keeps the old shading.
         labels, shine: without them all pixels count as face.
         response: see `render.response`, H x W; it scales the light that is added, and without it nothing does.
 
     Returns:
         estimated + share * (relit - estimated), float32; three channels if either shading has three.
     """
-    if labels is None and shine is None:
+    if labels is None and shine is None and lamps is None:
         return relit
     mixed = np.empty(estimated.shape if estimated.ndim > relit.ndim else relit.shape, np.float32)
 
@@ -50,6 +53,8 @@ def composite(
         before = with_channels_of(estimated[rows], mixed)
         change = with_channels_of(relit[rows], mixed) - before
         change *= with_channels_of(_share_of_new(scene, labels, shine, rows), mixed)
+        if lamps is not None:
+            change *= with_channels_of(1 - lamps[rows], mixed)
         if response is not None:
             # max(change, 0) * response + min(change, 0)
             removed = np.minimum(change, 0)

@@ -13,7 +13,7 @@ from typer.core import TyperGroup
 
 COMMANDS = (
     *("lights", "scenes", "geometry", "poses", "intrinsic", "light"),
-    *("masks", "matting", "makeup", "transfer"),
+    *("masks", "matting", "makeup", "transfer", "looks"),
 )
 """Each a module here, with a function of the same name."""
 

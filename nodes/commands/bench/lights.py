@@ -11,7 +11,7 @@ import typer
 from graphface.nodes.commands.bench.options import DATA, Data
 
 if TYPE_CHECKING:
-    from graphface.nodes.bench.known_lights import Figure, Variant
+    from graphface.nodes.bench.known_lights import Figure
 
 
 def lights(
@@ -33,7 +33,7 @@ def lights(
     from graphface import UsageError
     from graphface.nodes.bench.heads import LIGHTS
     from graphface.nodes.bench.known_light_cases import head_cases, yale_cases
-    from graphface.nodes.bench.known_lights import UNCHANGED, relight_known
+    from graphface.nodes.bench.known_lights import UNCHANGED, chosen_variants, relight_known
     from graphface.nodes.bench.variant_sheet import variant_sheets
     from graphface.report.terminal import print_table
 
@@ -41,7 +41,7 @@ def lights(
         raise UsageError(f"--truth {truth!r}: expected heads or yale")
     if source not in LIGHTS:
         raise UsageError(f"--source {source!r}: expected {', '.join(LIGHTS)}")
-    chosen = _chosen(variant)
+    chosen = chosen_variants(variant)
     cases = head_cases(data, source) if truth == "heads" else yale_cases(data, every)
     found = list(relight_known(cases, chosen, out))
     names = list(dict.fromkeys(figure.light for figure in found))
@@ -54,24 +54,6 @@ def lights(
     if out is not None and len(chosen) > 1:
         sheets = variant_sheets(out, [v.name for v in chosen], data, truth)
         print(f"wrote {len(sheets)} contact sheets, {out}/sheet-SUBJECT.png")
-
-
-def _chosen(names: list[str] | None) -> list[Variant]:
-    """The variants of these names; the shipped graph by default.
-
-    Raises:
-        UsageError: there is no such variant.
-    """
-    from graphface import UsageError
-    from graphface.errors import did_you_mean, nearest_names
-    from graphface.nodes.bench.known_lights import VARIANTS
-
-    known = {v.name: v for v in VARIANTS}
-    asked = list(known) if names == ["all"] else names or [VARIANTS[0].name]
-    for name in asked:
-        if name not in known:
-            raise UsageError(f"unknown variant {name!r}{did_you_mean(nearest_names(name, known))}")
-    return [known[name] for name in asked]
 
 
 def _row(name: str, found: Sequence[Figure], lights: Sequence[str], kind: str, digits: int) -> tuple[str, ...]:

@@ -1,0 +1,94 @@
+"""Lamps in the background: they give light and take none."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.blur import blurred
+from graphface.nodes.color import channel_mean
+from graphface.nodes.smoothstep import smoothstep
+from graphface.nodes.types import FloatArray, Image, Landmarks, Mask, Segmentation
+
+_GLOW = (0.55, 0.85)
+"""Intensities between which the surroundings of a lamp begin to count as its glow."""
+
+_MOST = 256
+"""Spots that are looked at, the largest first: a picture of a thousand specks has no lamps."""
+
+_LEAST_PIXELS = 4
+
+
+@node("render.lamps")
+def lamps(
+    photo: Image,
+    labels: Segmentation,
+    landmarks: Landmarks,
+    *,
+    blown: Annotated[float, Field(gt=0, le=1)] = 0.97,
+    largest: Annotated[float, Field(ge=0, le=100)] = 1.0,
+    contrast: Annotated[float, Field(ge=0, le=1)] = 0.25,
+    glow: Annotated[float, Field(ge=0, le=2)] = 0.1,
+) -> Mask:
+    """Small blown spots of the background that stand out from what is around them: lamps, candles, the sun, reflexes.
+
+    Args:
+        blown: least value of every channel in a spot.
+        largest: area up to which a spot is a lamp and not a white wall or a window, in squares of the inter-ocular
+            distance.
+        contrast: how much darker than white the darkest quarter of its surroundings is at least.
+        glow: width of the bright rim that belongs to a lamp, in inter-ocular distances.
+
+    Returns:
+        H x W in [0, 1]: the share of a pixel that is a source of light.
+    """
+    import cv2
+
+    pixels, unit = photo.pixels, max(landmarks.interocular, 1e-3)
+    spots = ((pixels.min(axis=2) >= blown) & (labels.background > 0.5)).astype(np.uint8)
+    nothing = np.zeros(spots.shape, np.float32)
+    if not spots.any():
+        return nothing
+    intensity = channel_mean(pixels)
+    count, numbers, boxes, _ = cv2.connectedComponentsWithStats(spots)
+    areas = boxes[:, cv2.CC_STAT_AREA]
+    small = np.flatnonzero((areas >= _LEAST_PIXELS) & (areas <= max(largest * unit * unit, _LEAST_PIXELS)))
+    small = small[small > 0]
+    candidates = small[np.argsort(-areas[small], kind="stable")][:_MOST]
+    kept = np.zeros(count, np.float32)
+    for number in candidates:
+        kept[number] = _stands_out(numbers, number, boxes[number, :4], spots, labels.background, intensity, contrast)
+    if not kept.any():
+        return nothing
+    side = 2 * max(1, round(glow * unit / 2)) + 1
+    grown = cv2.dilate(kept[numbers], cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side)))
+    soft = blurred(np.asarray(grown, np.float32), max(glow * unit / 4, 0.5))
+    bright = smoothstep((intensity - np.float32(_GLOW[0])) / np.float32(_GLOW[1] - _GLOW[0]))
+    return np.asarray(soft * bright * labels.background, np.float32)
+
+
+def _stands_out(
+    numbers: NDArray[np.int32],
+    number: int,
+    box: NDArray[np.int32],
+    spots: NDArray[np.uint8],
+    background: FloatArray,
+    intensity: FloatArray,
+    contrast: float,
+) -> bool:
+    """Whether the background in a ring around a spot is darker; the ring is a third of the spot's size wide."""
+    import cv2
+
+    left, top, width, height = (int(v) for v in box)
+    reach = round(0.35 * max(width, height)) + 4
+    window = np.s_[max(0, top - reach) : top + height + reach, max(0, left - reach) : left + width + reach]
+    spot = (numbers[window] == number).astype(np.uint8)
+    near = cv2.dilate(spot, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach - 1,) * 2)) > 0
+    ring = near & (spots[window] == 0) & (background[window] > 0.5)
+    if np.count_nonzero(ring) <= _LEAST_PIXELS:
+        return False
+    return bool(np.percentile(intensity[window][ring], 25) < 1 - contrast)
