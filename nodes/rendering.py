@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphface.nodes.color import in_three_channels
+from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Shading
 
@@ -17,6 +17,10 @@ _BLACK, _WHITE = np.float32(0), np.float32(1)
 
 _LEAST_HEADROOM = 1e-6
 """Headroom that every value has at least, because it is divided by."""
+
+
+_LEAST_BRIGHTNESS = np.float32(1e-3)
+"""Of a rendering, because it is divided by."""
 
 
 _SPARSE = 8
@@ -66,7 +70,27 @@ def applied(detail: DetailMap, rendered: FloatArray) -> FloatArray:
         np.minimum(picture, detail.ceiling, out=picture)
     if above_pivot is not None:
         picture += above_pivot
+        _fade_tint(picture, above_pivot, detail)
     return picture
+
+
+def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> None:
+    """Take away, in place, what the photo's color differs from the albedo's, the more of it the more light is added.
+
+    With a difference map that color would stay however bright the pixel becomes: the purple of a shadow that is lit.
+    The factor is (before / after)^3 of the rendering's brightness, so it is 1 where no light is added.
+    """
+    pivot = detail.pivot
+    if pivot is None or detail.gain is None or not added.any():
+        return
+    before = channel_mean(pivot)
+    after = before + channel_mean(added)
+    fading = before / np.maximum(after, _LEAST_BRIGHTNESS)
+    fading = np.where(after > _LEAST_BRIGHTNESS, 1 - fading * fading * fading, np.float32(0))
+    photo = detail.gain * pivot + detail.offset
+    tint = photo - pivot * in_three_channels(channel_mean(photo) / np.maximum(before, _LEAST_BRIGHTNESS))
+    tint *= in_three_channels(fading)
+    picture -= tint
 
 
 def recombined(photo: Image, albedo: Albedo, shading: Shading, detail: DetailMap, shoulder: float = 0.5) -> Image:

@@ -52,9 +52,7 @@ def composite(
     def strip(rows: slice) -> None:
         before = with_channels_of(estimated[rows], mixed)
         change = with_channels_of(relit[rows], mixed) - before
-        change *= with_channels_of(_share_of_new(scene, labels, shine, rows), mixed)
-        if lamps is not None:
-            change *= with_channels_of(1 - lamps[rows], mixed)
+        change *= with_channels_of(_share_of_new(scene, labels, shine, lamps, rows), mixed)
         if response is not None:
             # max(change, 0) * response + min(change, 0)
             removed = np.minimum(change, 0)
@@ -67,13 +65,14 @@ def composite(
     return mixed
 
 
-def _share_of_new(scene: Scene, labels: Segmentation | None, shine: Mask | None, rows: slice) -> FloatArray:
+def _share_of_new(
+    scene: Scene, labels: Segmentation | None, shine: Mask | None, lamps: Mask | None, rows: slice
+) -> FloatArray:
     """The share of the new shading at each pixel, H x W."""
-    kept = np.zeros(0, np.float32)
+    kept = []
     if labels is not None:
-        kept = np.float32(1 - scene.background) * labels.background[rows]
+        kept.append(np.float32(1 - scene.background) * labels.background[rows])
     if shine is not None:
-        highlights = np.float32(scene.hair) * shine[rows]
-        kept = kept + highlights if labels is not None else highlights
-    np.minimum(kept, 1, out=kept)
-    return np.subtract(1, kept, out=kept)
+        kept.append(np.float32(scene.hair) * shine[rows])
+    share = 1 - np.minimum(sum(kept[1:], kept[0]), 1) if kept else np.float32(1)
+    return np.asarray(share * (1 - lamps[rows]) if lamps is not None else share, np.float32)
