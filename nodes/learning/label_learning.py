@@ -18,8 +18,9 @@ import numpy as np
 
 from graphface import UnreadableFile
 from graphface.nodes.learning.label_pictures import TrainingPicture, head_pictures, photo_pictures
-from graphface.nodes.learning.label_training import Examples, folded, trained
+from graphface.nodes.learning.label_training import Examples, trained
 from graphface.nodes.learning.label_variations import example
+from graphface.nodes.learning.unet_training import folded
 from graphface.nodes.masks.network_input import CHANNELS
 from graphface.nodes.masks.upright_grid import HEIGHT, WIDTH
 

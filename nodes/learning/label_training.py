@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface import UsageError
+from graphface.nodes.learning.unet_training import torch_module, trainable
 from graphface.nodes.masks.label_network import WIDTHS
 from graphface.nodes.masks.network_input import CHANNELS
 
@@ -34,10 +32,10 @@ def trained(examples: Examples, *, steps: int, seed: int = 0) -> dict[str, Any]:
     Raises:
         UsageError: PyTorch is not installed.
     """
-    torch = _torch()
+    torch = torch_module()
     torch.manual_seed(seed)
     random = np.random.default_rng(seed)
-    net = network().to(memory_format=torch.channels_last).train()
+    net = trainable(CHANNELS, WIDTHS).to(memory_format=torch.channels_last).train()
     optimizer = torch.optim.AdamW(net.parameters(), lr=RATE, weight_decay=DECAY)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=steps, pct_start=0.15)
     order: list[int] = []
@@ -61,65 +59,3 @@ def trained(examples: Examples, *, steps: int, seed: int = 0) -> dict[str, Any]:
         if step % 200 == 199:
             print(f"  {step + 1} of {steps} steps, loss {running:.4f}", flush=True)
     return {name: values.clone() for name, values in net.state_dict().items()}
-
-
-def network() -> Any:
-    """The network of `masks.label_network`, with batch normalization in place of biases."""
-    nn = _torch().nn
-
-    def convolution(inputs: int, outputs: int) -> Any:
-        return nn.Sequential(
-            nn.Conv2d(inputs, outputs, 3, padding=1, bias=False), nn.BatchNorm2d(outputs), nn.ReLU(inplace=True)
-        )
-
-    class Network(nn.Module):  # type: ignore[misc,name-defined]
-        def __init__(self) -> None:
-            super().__init__()
-            before = [CHANNELS, *WIDTHS[:-1]]
-            self.down = nn.ModuleList(
-                nn.Sequential(convolution(i, o), convolution(o, o)) for i, o in zip(before, WIDTHS, strict=True)
-            )
-            self.across = nn.ModuleList(nn.Conv2d(o, i, 1) for i, o in pairwise(WIDTHS))
-            self.up = nn.ModuleList(convolution(w, w) for w in WIDTHS[:-1])
-            self.out = nn.Conv2d(WIDTHS[0], 12, 1)
-
-        def forward(self, cells: Any) -> Any:
-            levels = []
-            for level, block in enumerate(self.down):
-                cells = block(nn.functional.avg_pool2d(cells, 2) if level else cells)
-                levels.append(cells)
-            for level in reversed(range(len(self.up))):
-                wider = nn.functional.interpolate(self.across[level](cells), scale_factor=2, mode="nearest")
-                cells = self.up[level](levels[level] + wider)
-            return nn.functional.pixel_shuffle(self.out(cells), 2)
-
-    return Network()
-
-
-def folded(state: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The weights in the form of `masks.label_network`: kernels (k, k, in, out), with batch normalization folded in."""
-    arrays = {name: values.double().numpy() for name, values in state.items() if values.is_floating_point()}
-    found: dict[str, np.ndarray] = {}
-    for name, kernel in arrays.items():
-        if not name.endswith("weight") or kernel.ndim != 4:
-            continue
-        layer = name.removesuffix(".weight")
-        if f"{layer}.bias" in arrays:
-            bias = arrays[f"{layer}.bias"]
-        else:
-            normal = layer.removesuffix(".0") + ".1"
-            gain = arrays[f"{normal}.weight"] / np.sqrt(arrays[f"{normal}.running_var"] + 1e-5)
-            kernel = kernel * gain[:, None, None, None]
-            bias = arrays[f"{normal}.bias"] - gain * arrays[f"{normal}.running_mean"]
-            layer = layer.removesuffix(".0")
-        found[f"{layer}.weight"] = kernel.transpose(2, 3, 1, 0).astype(np.float16)
-        found[f"{layer}.bias"] = bias.astype(np.float32)
-    return found
-
-
-def _torch() -> Any:
-    try:
-        import torch  # type: ignore[import-not-found,unused-ignore]
-    except ImportError:
-        raise UsageError("training the label network needs PyTorch: pip install torch") from None
-    return torch

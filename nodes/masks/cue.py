@@ -11,13 +11,14 @@ from __future__ import annotations
 import numpy as np
 
 from graphface import node
-from graphface.nodes.masks.label_network import Weights, label_scores
+from graphface.nodes.masks.label_network import label_scores
 from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights
 from graphface.nodes.masks.logits import softmax
 from graphface.nodes.masks.network_input import mirrored_input, network_input
 from graphface.nodes.masks.upright_grid import UprightGrid, upright_grid
 from graphface.nodes.network_pixels import network_pixels
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
+from graphface.nodes.unet import Weights
 
 
 @node("masks.cue")

@@ -1,29 +1,15 @@
-"""The label network: a small U-Net that labels the pixels about a head, in plain NumPy.
+"""The label network: a small U-Net (`graphface.nodes.unet`) that labels the pixels about a head.
 
-It works on cells of 2 x 2 pixels and gives four labels for each cell at the end (pixel shuffle), which costs a quarter
-of working on pixels. On the way down each level halves the picture: average pooling, then two convolutions. On the way
-up each level adds the upsampled result of the level below, and convolves once. Batch normalization was folded into the
-weights after training (`graphface models labels`).
+Its weights come from `graphface models labels`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-import numpy as np
-from numpy.typing import NDArray
-
 from graphface.nodes.types import FloatArray
+from graphface.nodes.unet import Weights, unet
 
 WIDTHS = (16, 32, 48, 64)
 """Channels at each level, finest first."""
-
-
-MULTIPLICATIONS = 1 << 17
-"""In one matrix product, as in `masks.mixture`: below this OpenBLAS starts no threads of its own."""
-
-
-Weights = Mapping[str, NDArray[np.float32]]
 
 
 def label_scores(cells: FloatArray, weights: Weights) -> FloatArray:
@@ -32,60 +18,4 @@ def label_scores(cells: FloatArray, weights: Weights) -> FloatArray:
     Args:
         cells: h x w x C from `masks.network_input`, h and w multiples of 8.
     """
-    levels = []
-    for level in range(len(WIDTHS)):
-        for step in range(2):
-            layer = f"down.{level}.{step}"
-            cells = relu(convolved(_average_pooled(cells) if level and not step else cells, weights, layer))
-        levels.append(cells)
-    for level in reversed(range(len(WIDTHS) - 1)):
-        below = convolved(cells, weights, f"across.{level}")
-        cells = levels[level] + below.repeat(2, axis=0).repeat(2, axis=1)
-        cells = relu(convolved(cells, weights, f"up.{level}"))
-    return _pixel_shuffled(convolved(cells, weights, "out"))
-
-
-def convolved(cells: FloatArray, weights: Weights, layer: str) -> FloatArray:
-    """h x w x C convolved with a layer's kernels k x k x C x D, plus its bias; zero padding."""
-    kernel, bias = weights[f"{layer}.weight"], weights[f"{layer}.bias"]
-    size, _, inputs, outputs = kernel.shape
-    height, width = cells.shape[:2]
-    if size == 1:
-        columns = cells.reshape(-1, inputs)
-    else:
-        margin = size // 2
-        padded = np.pad(cells, ((margin, margin), (margin, margin), (0, 0)))
-        columns = np.empty((height, width, size * size, inputs), np.float32)
-        for down in range(size):
-            for right in range(size):
-                columns[:, :, down * size + right] = padded[down : down + height, right : right + width]
-        columns = columns.reshape(-1, size * size * inputs)
-    found = _product(columns, kernel.reshape(-1, outputs))
-    found += bias
-    return found.reshape(height, width, outputs)
-
-
-def relu(values: FloatArray) -> FloatArray:
-    """Values below 0 become 0, in place."""
-    return np.maximum(values, 0, out=values)
-
-
-def _product(rows: FloatArray, matrix: FloatArray) -> FloatArray:
-    step = max(1, MULTIPLICATIONS // matrix.size)
-    found = np.empty((len(rows), matrix.shape[1]), np.float32)
-    for start in range(0, len(rows), step):
-        np.matmul(rows[start : start + step], matrix, out=found[start : start + step])
-    return found
-
-
-def _average_pooled(cells: FloatArray) -> FloatArray:
-    """Means of 2 x 2 cells."""
-    rows = cells[::2] + cells[1::2]
-    return np.asarray((rows[:, ::2] + rows[:, 1::2]) * np.float32(0.25))
-
-
-def _pixel_shuffled(cells: FloatArray) -> FloatArray:
-    """h x w x 4C to 2h x 2w x C. Each channel's four values are upper left, upper right, lower left, lower right."""
-    height, width, channels = cells.shape
-    pixels = cells.reshape(height, width, channels // 4, 2, 2).transpose(0, 3, 1, 4, 2)
-    return np.ascontiguousarray(pixels.reshape(2 * height, 2 * width, channels // 4))
+    return unet(cells, weights, len(WIDTHS))

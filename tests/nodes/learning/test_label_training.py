@@ -10,8 +10,10 @@ from drawn import PICTURE
 
 from graphface import UsageError
 from graphface.nodes.learning.label_learning import examples_of
-from graphface.nodes.learning.label_training import folded, network, trained
-from graphface.nodes.masks.label_network import label_scores
+from graphface.nodes.learning.label_training import trained
+from graphface.nodes.learning.unet_training import folded, trainable
+from graphface.nodes.masks.label_network import WIDTHS, label_scores
+from graphface.nodes.masks.network_input import CHANNELS
 
 
 class TestTrained:
@@ -33,7 +35,7 @@ class TestTrained:
         torch = pytest.importorskip("torch", reason="training needs PyTorch")
         examples = examples_of([(PICTURE, 16)], [PICTURE], 0)
         state = trained(examples, steps=20)
-        net = network()
+        net = trainable(CHANNELS, WIDTHS)
         net.load_state_dict(state)
         cells = examples.cells[:1].astype(np.float32)
         expected = net.eval()(torch.from_numpy(cells))[0].detach().numpy().transpose(1, 2, 0)

@@ -1,0 +1,130 @@
+"""The network that refines normals: a small U-Net (`graphface.nodes.unet`) on the crop about a face.
+
+It sees the picture, the fitted normals, the face mask, and what the estimated light makes of the fitted normals, and
+gives what has to be added to them. It was learned from path-traced heads: `graphface models normals`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from graphface.nodes.harmonics import basis
+from graphface.nodes.network_pixels import network_pixels
+from graphface.nodes.network_weights import Network, read_network
+from graphface.nodes.surface.face_crop import SIZE, FaceCrop
+from graphface.nodes.types import FloatArray, Image, Lighting, Mask, Surface
+from graphface.nodes.unet import Weights, unet
+
+WIDTHS = (24, 40, 64, 96)
+"""Channels at each level, finest first."""
+
+
+COLORS, NORMALS, COVERAGE, MASK, SHADING, LIGHT, PLACE, CHANNELS = 0, 3, 6, 7, 8, 9, 12, 14
+"""First channel of each kind of input, and their count."""
+
+
+OF_PICTURE = (*range(COLORS, NORMALS), *range(SHADING, PLACE))
+"""The channels that depend on the picture's values."""
+
+
+NETWORK = Network("graphface-normals-1", "normals network", WIDTHS, 4 * CHANNELS, "graphface models normals")
+
+
+_MIRRORED = (NORMALS, LIGHT, PLACE)
+"""Channels that change their sign in a mirror."""
+
+_BRIGHTEST = 3.0
+"""Colors and shading relative to the face's mean are clipped to this."""
+
+_LEAST_COVERED = 0.3
+
+
+@dataclass(frozen=True)
+class NormalWeights:
+    """Weights of a normals network by layer; as a graph input, a file that `graphface models normals` wrote."""
+
+    arrays: Weights
+
+
+SHIPPED = Path(__file__).with_name("normals.safetensors")
+"""A constant of the module, so that its content is part of the fingerprint of the code that uses it."""
+
+
+@cache
+def shipped_weights() -> Weights:
+    """The weights that come with the package."""
+    return read_network(SHIPPED, NETWORK)
+
+
+def network_input(crop: FaceCrop, photo: Image, surface: Surface, mask: Mask, light: Lighting) -> FloatArray:
+    """What the network sees, float32 SIZE x SIZE x CHANNELS, every channel of about unit range."""
+    pixels = crop.sampled(_pixels(crop, photo))
+    weight = crop.sampled(mask)
+    covered = crop.sampled(surface.coverage)
+    normals = crop.turned(crop.sampled(surface.normals))
+    length = np.sqrt(np.square(normals).sum(axis=2, keepdims=True))
+    normals = normals / np.maximum(length, 1e-3) * (covered[..., None] > _LEAST_COVERED)
+    shading = _shading(crop.turned(normals, back=True), light)
+    total = max(float(weight.sum()), 1.0)
+    brightness = max(float((pixels.mean(axis=2) * weight).sum()) / total, 1e-2)
+    mean = max(float((shading * weight).sum()) / total, 1e-2)
+    axes = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]], np.float32)
+    seen = np.clip(_of_light(axes, light) / mean, -_BRIGHTEST, _BRIGHTEST)
+    towards = crop.turned(np.array([seen[0] - seen[1], seen[2] - seen[3], seen[4]], np.float32) / 2)
+    place = np.mgrid[:SIZE, :SIZE].astype(np.float32)[::-1] / SIZE - 0.5
+    channels = [
+        np.clip(pixels / brightness, 0, _BRIGHTEST) - 1,
+        normals,
+        covered[..., None],
+        weight[..., None],
+        np.clip(shading / mean, 0, _BRIGHTEST)[..., None] - 1,
+        np.broadcast_to(towards, (SIZE, SIZE, 3)),
+        place.transpose(1, 2, 0),
+    ]
+    return np.concatenate(channels, axis=2, dtype=np.float32)
+
+
+def corrections(seen: FloatArray, weights: Weights, mirrored: bool) -> FloatArray:
+    """What is to be added to the crop's normals, float32 SIZE x SIZE x 3, in the crop's axes."""
+    found = unet(unshuffled(seen), weights, len(WIDTHS))
+    if mirrored:
+        other = unet(unshuffled(mirror(seen)), weights, len(WIDTHS))[:, ::-1] * np.float32([-1, 1, 1])
+        found = np.float32(0.5) * (found + other)
+    return found
+
+
+def mirror(seen: FloatArray) -> FloatArray:
+    """The input of the mirrored picture."""
+    turned = seen[:, ::-1].copy()
+    turned[..., _MIRRORED] *= -1
+    return turned
+
+
+def unshuffled(values: FloatArray) -> FloatArray:
+    """2h x 2w x C to h x w x 4C: the four pixels of a cell, channel by channel."""
+    height, width, channels = values.shape
+    cells = values.reshape(height // 2, 2, width // 2, 2, channels).transpose(0, 2, 4, 1, 3)
+    return np.ascontiguousarray(cells.reshape(height // 2, width // 2, 4 * channels))
+
+
+def _pixels(crop: FaceCrop, photo: Image) -> FloatArray:
+    """The photo as networks expect it, black beyond the crop's window."""
+    top, bottom, left, right = crop.window(photo.pixels.shape)
+    pixels = np.zeros_like(photo.pixels)
+    pixels[top:bottom, left:right] = network_pixels(photo.pixels[top:bottom, left:right], photo.encoding)
+    return pixels
+
+
+def _shading(normals: FloatArray, light: Lighting) -> FloatArray:
+    """What the light makes of normals, one value a pixel; 0 where there is none."""
+    values = _of_light(normals.reshape(-1, 3), light).reshape(normals.shape[:2])
+    return np.maximum(values, 0) * (normals != 0).any(axis=2)
+
+
+def _of_light(normals: FloatArray, light: Lighting) -> FloatArray:
+    values = basis(normals, light.order) @ light.coefficients
+    return np.asarray(values.mean(axis=1) if values.ndim == 2 else values, np.float32)

@@ -1,0 +1,97 @@
+"""Normals of a fitted head, refined from the picture.
+
+A fitted model has not the wings of this nose, the folds and lids of this face. The picture shows them, but not apart
+from pigment and light. A small network learned on path-traced heads what the light on a face says about its relief
+(see `normal_network` and the card beside the weights).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node, warn
+from graphface.nodes.surface.face_crop import INTEROCULAR, FaceCrop, face_crop
+from graphface.nodes.surface.normal_network import (
+    COVERAGE,
+    NORMALS,
+    NormalWeights,
+    corrections,
+    network_input,
+    shipped_weights,
+)
+from graphface.nodes.types import FloatArray, Image, Landmarks, Lighting, Mask, Surface
+
+
+@node("surface.refined")
+def refined(
+    surface: Surface,
+    photo: Image,
+    landmarks: Landmarks,
+    mask: Mask,
+    light: Lighting,
+    weights: NormalWeights | None = None,
+    *,
+    finer_than: Annotated[float, Field(gt=0, le=1)] = 0.12,
+    strength: Annotated[float, Field(ge=0, le=2)] = 1.0,
+    mirrored: bool = True,
+) -> Surface:
+    """The surface with normals that fit the picture; its depth, coverage and triangles stay.
+
+    Args:
+        surface: of the photo's size. photo: any encoding.
+        landmarks: any scheme; they give the position, size and roll of the face.
+        mask: of the face, by which the picture's and the light's mean are taken.
+        light: the estimated light, in the encoding of the photo.
+        weights: the shipped ones by default.
+        finer_than: standard deviation of the Gaussian, in inter-ocular distances, whose smooth part of the correction
+            is left out; 1 takes the whole correction. The fit's coarse shape is better on real faces than what a
+            network makes of it that was taught by one family of heads.
+        strength: factor of the correction.
+        mirrored: average with the correction of the mirrored picture.
+
+    Returns:
+        Unit normals within the crop about the face (1.1 inter-ocular distances to each side of it), as they were
+        beyond; a face that is not there, or a speck, keeps its normals, with a warning.
+    """
+    crop = face_crop(landmarks)
+    covered = bool((surface.coverage > 0).any())
+    if strength == 0 or not covered or crop.scale >= INTEROCULAR or not np.isfinite(light.coefficients).all():
+        if strength != 0:
+            warn("surface.refined: there is no face that could be refined; the normals stay as they are")
+        return surface
+    seen = network_input(crop, photo, surface, mask, light)
+    arrays = shipped_weights() if weights is None else weights.arrays
+    change = np.float32(strength) * _fine(corrections(seen, arrays, mirrored), seen, finer_than)
+    return replace(surface, normals=_changed(surface, crop, change))
+
+
+def _fine(change: FloatArray, seen: FloatArray, finer_than: float) -> FloatArray:
+    """The change of unit normals on the crop, without its part that is smooth over more than `finer_than`."""
+    import cv2
+
+    before = seen[..., NORMALS:COVERAGE]
+    covered = (before != 0).any(axis=2, keepdims=True)
+    after = before + change
+    after = after / np.maximum(np.sqrt(np.square(after).sum(axis=2, keepdims=True)), np.float32(1e-3))
+    found = (after - before) * covered
+    if finer_than >= 1:
+        return np.asarray(found, np.float32)
+    sigma = finer_than * INTEROCULAR
+    shares = cv2.GaussianBlur(covered.astype(np.float32)[..., 0], (0, 0), sigma)[..., None]
+    smooth = cv2.GaussianBlur(np.asarray(found, np.float32), (0, 0), sigma) / np.maximum(shares, np.float32(0.05))
+    return np.asarray((found - smooth) * covered, np.float32)
+
+
+def _changed(surface: Surface, crop: FaceCrop, change: FloatArray) -> FloatArray:
+    top, bottom, left, right = window = crop.window(surface.coverage.shape)
+    normals = surface.normals.copy()
+    part = normals[top:bottom, left:right]
+    new = part + crop.unwarped(crop.turned(change, back=True), window)
+    length = np.sqrt(np.square(new).sum(axis=2, keepdims=True))
+    on = (surface.coverage[top:bottom, left:right, None] > 0) & (length > 1e-3)
+    np.copyto(part, new / np.maximum(length, np.float32(1e-3)), where=on)
+    return normals
