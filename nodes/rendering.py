@@ -80,17 +80,25 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     With a difference map that color would stay however bright the pixel becomes: the purple of a shadow that is lit.
     The factor is (before / after)^3 of the rendering's brightness, so it is 1 where no light is added.
     """
-    pivot = detail.pivot
-    if pivot is None or detail.gain is None or not added.any():
+    pivot, gain = detail.pivot, detail.gain
+    if pivot is None or gain is None or not added.any():
         return
     before = channel_mean(pivot)
-    after = before + channel_mean(added)
-    fading = before / np.maximum(after, _LEAST_BRIGHTNESS)
-    fading = np.where(after > _LEAST_BRIGHTNESS, 1 - fading * fading * fading, np.float32(0))
-    photo = detail.gain * pivot + detail.offset
-    tint = photo - pivot * in_three_channels(channel_mean(photo) / np.maximum(before, _LEAST_BRIGHTNESS))
-    tint *= in_three_channels(fading)
-    picture -= tint
+    np.maximum(before, _LEAST_BRIGHTNESS, out=before)
+    after = channel_mean(added)
+    after += before
+    fading = before / after
+    fading *= fading * fading
+    np.subtract(1, fading, out=fading)
+    photo = gain * pivot
+    photo += detail.offset
+    # photo - pivot * |photo| / |pivot|, times the part that fades
+    brightness = channel_mean(photo)
+    brightness *= fading
+    brightness /= before
+    photo *= in_three_channels(fading)
+    picture -= photo
+    picture += in_three_channels(brightness) * pivot
 
 
 def recombined(photo: Image, albedo: Albedo, shading: Shading, detail: DetailMap, shoulder: float = 0.5) -> Image:

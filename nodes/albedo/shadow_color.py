@@ -71,7 +71,7 @@ def shadow_color(
     own_face = np.ones_like(skin) if face is None else copy.down(face)
     usual, limit, lit = _lit_skin(small, skin * own_face * bare + _LEAST, max(sigma * copy.interocular, 0.5))
     dark = _darkness(channel_mean(small), usual, threshold) * own_face * bare
-    factors = copy.up(_adaptation(small, lit, dark, copy) * in_three_channels(bare))
+    excess = copy.up((_adaptation(small, lit, dark, copy) - 1) * in_three_channels(bare))
     usual, limit, lit, bare = copy.up(usual), copy.up(limit), copy.up(lit), copy.up(bare)
     result = np.empty_like(albedo)
 
@@ -79,7 +79,7 @@ def shadow_color(
         brightness, grey = channel_mean(photo.pixels[rows]), channel_mean(albedo[rows])
         is_face = np.float32(1) if face is None else face[rows]
         share = _darkness(brightness, usual[rows], threshold) * is_face
-        adapted = albedo[rows] * np.exp(factors[rows] * in_three_channels(share))
+        adapted = albedo[rows] * (1 + excess[rows] * in_three_channels(share))
         adapted = _less_saturated(adapted, limit[rows], share)
         adapted *= in_three_channels(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)))
         share = _darkness(brightness, usual[rows], black) * is_face * bare[rows]
@@ -109,13 +109,13 @@ def _darkness(brightness: FloatArray, usual: FloatArray, threshold: float) -> Fl
 
 
 def _adaptation(small: FloatArray, lit: FloatArray, dark: FloatArray, copy: FaceScale) -> FloatArray:
-    """Logarithms, h x w x 3, of the factors from the mean color of the dark skin around to that of lit skin."""
+    """The factors, h x w x 3, from the mean color of the dark skin around to that of lit skin."""
     weight = dark + np.float32(1e-4)
     color = small / in_three_channels(np.maximum(channel_mean(small), _LEAST))
     sigma = max(_REGION * copy.interocular, 0.5)
     own = blurred(color * in_three_channels(weight), sigma) / in_three_channels(blurred(weight, sigma))
     factors = np.maximum(lit, _LEAST) / np.maximum(own, _LEAST)
-    return np.asarray(np.log(np.clip(factors, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR)), np.float32)
+    return np.asarray(np.clip(factors, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR), np.float32)
 
 
 def _less_saturated(color: FloatArray, limit: FloatArray, share: FloatArray) -> FloatArray:

@@ -18,8 +18,8 @@ def _needs(scene: Scene) -> Needs:
     if scene.unchanged:
         same = "the scene is the photo's own light: nothing changes"
         return {"albedo": same, "shading": same, "detail": same, "highlights": same}
-    dull = "the scene asks for no highlights (specular: 0)"
-    return {"albedo": True, "shading": True, "detail": True, "highlights": scene.specular > 0 or dull}
+    dull = "the scene has no light that makes highlights, or asks for none (specular: 0)"
+    return {"albedo": True, "shading": True, "detail": True, "highlights": scene.glossy or dull}
 
 
 @node("render.relit", needs=_needs)
@@ -65,8 +65,10 @@ def _with_highlights(image: Image, highlights: FloatArray) -> FloatArray:
     def strip(rows: slice) -> None:
         part, light = image.pixels[rows], highlights[rows]
         if light.any():
-            # A value above white stays. Where no light is added the value stays to the last bit.
-            brighter = np.minimum(encode_srgb(decode_srgb(part) + light), np.maximum(part, 1))
+            # On bright skin a highlight fades into white instead of burning out: the share of the way to white that it
+            # takes on black. A value above white stays. Where no light is added the value stays to the last bit.
+            before = decode_srgb(part)
+            brighter = np.maximum(encode_srgb(before + np.minimum(light, 1) * np.maximum(1 - before, 0)), part)
             part = np.where(light > 0, brighter, part)
         pixels[rows] = part
 
