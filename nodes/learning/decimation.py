@@ -38,7 +38,9 @@ class _Collapsing:
     def __init__(self, points: Array, triangles: NDArray[np.int64], importance: Array) -> None:
         self._points = points
         self._weight = importance
-        self._corners: dict[int, tuple[int, int, int]] = {t: (a, b, c) for t, (a, b, c) in enumerate(triangles.tolist())}
+        self._corners: dict[int, tuple[int, int, int]] = {
+            t: (a, b, c) for t, (a, b, c) in enumerate(triangles.tolist())
+        }
         self._at: dict[int, set[int]] = {}
         for number, corners in self._corners.items():
             for corner in corners:
@@ -66,7 +68,7 @@ class _Collapsing:
         point = np.append(self._points[kept], 1.0)
         length = float(np.square(self._points[gone] - self._points[kept]).sum())
         quadric = self._quadrics[gone] + self._quadrics[kept]
-        return float(point @ quadric @ point) + _LENGTH_WEIGHT * self._weight[gone] * length**2
+        return float(point @ quadric @ point + _LENGTH_WEIGHT * self._weight[gone] * length**2)
 
     def _offer(self, vertex: int) -> None:
         """Put the collapses from and into a vertex on the heap, at their present cost."""

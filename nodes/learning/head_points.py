@@ -63,12 +63,13 @@ def facemesh_on_head(head: IctHead, of: Vertices, triangles: NDArray[np.int64], 
         UnreadableFile: there are no heads at `data`.
     """
     mean = of(head.mean)
-    seen = [mean_points for truth in heads_of(data) for mean_points in _seen(truth, head, of, triangles)]
-    points = np.ma.median(np.ma.masked_invalid(np.stack(seen)), axis=0).filled(np.nan)
-    count = np.isfinite(np.stack(seen)[..., 0]).sum(axis=0)[:, None].astype(np.float64)
+    seen = np.stack([points for truth in heads_of(data) for points in _seen(truth, head, of, triangles)])
+    count = np.isfinite(seen[..., 0]).sum(axis=0)[:, None].astype(np.float64)
+    seen[:, count[:, 0] == 0] = 0
+    points = np.nanmedian(seen, axis=0)
     mirror = facemesh_topology().mirror
-    pairs = (np.nan_to_num(points) * count, np.nan_to_num(points)[mirror] * (-1, 1, 1) * count[mirror])
-    return nearest_on(sum(pairs) / np.maximum(count + count[mirror], 1), mean, triangles)
+    total = points * count + points[mirror] * (-1, 1, 1) * count[mirror]
+    return nearest_on(total / np.maximum(count + count[mirror], 1), mean, triangles)
 
 
 def nearest_on(points: Array, vertices: Array, triangles: NDArray[np.int64]) -> OnSurface:

@@ -1,8 +1,8 @@
 """A head by the points of its face: the mean of a Gaussian process given noisy points.
 
-Lüthi, Gerig, Jud, Vetter, Gaussian Process Morphable Models, TPAMI 2018: the prior of a shape is a mean, identities with
-normal coefficients, and a smooth displacement with a squared exponential kernel, which takes up expressions and what
-the identities lack. All is linear, so the posterior mean at every vertex is known in closed form.
+Lüthi, Gerig, Jud, Vetter, Gaussian Process Morphable Models, TPAMI 2018: the prior of a shape is a mean, identities
+with normal coefficients, and a smooth displacement with a squared exponential kernel, which takes up expressions and
+what the identities lack. All is linear, so the posterior mean at every vertex is known in closed form.
 """
 
 from __future__ import annotations
@@ -78,7 +78,8 @@ def head_regression(model: MorphableModel, prior: Prior) -> HeadRegression:
     kernel = np.float32(prior.deviation**2) * _kernel(model.mean, model.mean[split:], prior.width)
     smooth = kernel[split:].astype(np.float64)
     across, depth = (
-        np.linalg.inv(smooth + max(noise, 1e-3) ** 2 * np.eye(len(smooth))) for noise in (prior.noise, prior.depth_noise)
+        np.linalg.inv(smooth + max(noise, 1e-3) ** 2 * np.eye(len(smooth)))
+        for noise in (prior.noise, prior.depth_noise)
     )
     precision = np.stack([across, across, depth])
     weighted = np.einsum("cmn,knc->kmc", precision, of_points, optimize=True)

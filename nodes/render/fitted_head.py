@@ -43,7 +43,7 @@ def fitted_head(
         deviation, width: of the smooth displacement by which the head differs from the model, in eye distances: its
             standard deviation, and that of its kernel.
         noise, depth_noise: standard deviations of a point's error across the line of sight of a frontal camera and
-            along it, in eye distances. What a network knows of depth is little: the head's relief is mostly the model's.
+            along it, in eye distances. A network's depth says little: the relief is mostly the model's.
         identity: number of the model's identities to use.
 
     Returns:
@@ -71,7 +71,7 @@ def fitted_head(
 
 def _posed(regression: HeadRegression, face: Points) -> Points | None:
     """The head's vertices in the camera frame, by the points (468, 3) of the face, NaN where unknown."""
-    known = np.isfinite(face).all(axis=1)
+    known = np.asarray(np.isfinite(face).all(axis=1))
     fitted = regression.points
     for _ in range(_ROUNDS):
         pose = head_pose(face[known], fitted[known])

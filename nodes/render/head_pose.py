@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,7 +30,7 @@ def face_points(mesh: Mesh) -> Points:
     return face
 
 
-def head_pose(points: Points, reference: Points) -> tuple[Points, float, Points] | None:
+def head_pose(points: Points, reference: NDArray[np.floating[Any]]) -> tuple[Points, float, Points] | None:
     """Rotation, scale and origin that take a face of known position (n, 3) to its `points` (n, 3).
 
     Umeyama, Least-Squares Estimation of Transformation Parameters Between Two Point Patterns, TPAMI 1991, equations
