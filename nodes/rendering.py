@@ -80,31 +80,41 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     With a difference map that color would stay however bright the pixel becomes: the purple of a shadow that is lit.
     The factor is (before / after)^3 of the rendering's brightness, so it is 1 where no light is added.
     """
-    pivot = detail.pivot
-    if pivot is None or detail.gain is None or not added.any():
+    pivot, gain = detail.pivot, detail.gain
+    if pivot is None or gain is None or not added.any():
         return
     before = channel_mean(pivot)
-    after = before + channel_mean(added)
-    fading = before / np.maximum(after, _LEAST_BRIGHTNESS)
-    fading = np.where(after > _LEAST_BRIGHTNESS, 1 - fading * fading * fading, np.float32(0))
-    photo = detail.gain * pivot + detail.offset
-    tint = photo - pivot * in_three_channels(channel_mean(photo) / np.maximum(before, _LEAST_BRIGHTNESS))
-    tint *= in_three_channels(fading)
-    picture -= tint
+    np.maximum(before, _LEAST_BRIGHTNESS, out=before)
+    after = channel_mean(added)
+    after += before
+    fading = before / after
+    fading *= fading * fading
+    np.subtract(1, fading, out=fading)
+    photo = gain * pivot
+    photo += detail.offset
+    # photo - pivot * |photo| / |pivot|, times the part that fades
+    brightness = channel_mean(photo)
+    brightness *= fading
+    brightness /= before
+    photo *= in_three_channels(fading)
+    picture -= photo
+    picture += in_three_channels(brightness) * pivot
 
 
-def recombined(photo: Image, albedo: Albedo, shading: Shading, detail: DetailMap, shoulder: float = 0.5) -> Image:
+def recombined(
+    photo: Image, albedo: Albedo, shading: Shading, detail: DetailMap, shoulder: float = 0.5, toe: float = 0.5
+) -> Image:
     """A picture from its parts; see `blend.recombine`.
 
     Args:
         photo: the picture before the edit; the change from it is limited. Its alpha and file format are kept.
-        shoulder: 0 to 1, see `_soft_limited`.
+        shoulder, toe: 0 to 1, see `_soft_limited`.
     """
     pixels = np.empty(photo.pixels.shape, np.float32)
 
     def strip(rows: slice) -> None:
         picture = applied(_rows_of(detail, rows), rendering(albedo[rows], shading[rows]))
-        _soft_limited(picture, photo.pixels[rows], shoulder, out=pixels[rows])
+        _soft_limited(picture, photo.pixels[rows], shoulder, toe, out=pixels[rows])
 
     by_strips(strip, pixels.shape)
     return photo.with_pixels(pixels)
@@ -115,33 +125,28 @@ def _rows_of(detail: DetailMap, rows: slice) -> DetailMap:
     return DetailMap(detail.offset[rows], **{name: part[rows] for name, part in parts.items() if part is not None})
 
 
-def _soft_limited(picture: FloatArray, before: FloatArray, shoulder: float, out: FloatArray) -> None:
+def _soft_limited(picture: FloatArray, before: FloatArray, shoulder: float, toe: float, out: FloatArray) -> None:
     """The new picture, with its change limited to the headroom that each value had up to 1, or down to 0.
 
-    A change passes unaltered up to the share 1 - shoulder of the headroom. Beyond this knee the curve bends without a
-    kink and approaches the limit exponentially, like the shoulder of a film's characteristic curve. Each channel has
-    its own headroom, so bright colors drift to white as on film. One factor for all channels would keep the hue; it was
-    rejected, because where one channel is clipped already the others are held back in patches.
+    A change passes unaltered up to the share 1 - shoulder of the headroom (downwards 1 - toe). Beyond this knee the
+    curve bends without a kink and approaches the limit exponentially, like shoulder and toe of a film's characteristic
+    curve. Each channel has its own headroom, so bright colors drift to white as on film. One factor for all channels
+    would keep the hue; it was rejected, because where one channel is clipped already the others are held back in
+    patches.
     """
     black, white = _limits(before)
-    if shoulder == 0:
-        np.maximum(picture, black, out=out)
-        np.minimum(out, white, out=out)
-        return
-    linear = np.float32(1 - shoulder)
-    knee = before * np.float32(shoulder)
-    np.maximum(picture, knee if black is _BLACK else knee + linear * black, out=out)
-    knee += linear * white
-    np.minimum(out, knee, out=out)
+    low, high = np.float32(toe), np.float32(shoulder)
+    np.maximum(picture, before * low + (1 - low) * black, out=out)
+    np.minimum(out, before * high + (1 - high) * white, out=out)
     beyond = picture != out
     count = np.count_nonzero(beyond)
     if count * _SPARSE > picture.size:
-        out[...] = _rolled_off(picture, out, before, black, white, shoulder)
+        out[...] = _rolled_off(picture, out, before, black, white, shoulder, toe)
     elif count:
         places = np.flatnonzero(beyond)
         few, knees, start = (values.reshape(-1).take(places) for values in (picture, out, before))
-        low, high = (limit.reshape(-1).take(places) if limit.ndim else limit for limit in (black, white))
-        out.reshape(-1)[places] = _rolled_off(few, knees, start, low, high, shoulder)
+        least, most = (limit.reshape(-1).take(places) if limit.ndim else limit for limit in (black, white))
+        out.reshape(-1)[places] = _rolled_off(few, knees, start, least, most, shoulder, toe)
 
 
 def _limits(before: FloatArray) -> tuple[FloatArray | np.float32, FloatArray | np.float32]:
@@ -162,6 +167,7 @@ def _rolled_off(
     black: FloatArray | np.float32,
     white: FloatArray | np.float32,
     shoulder: float,
+    toe: float,
 ) -> FloatArray:
     """knee + h (1 - exp(-e / h)) for an excess e of the picture over the knee; the headroom h has the sign of e.
 
@@ -171,12 +177,14 @@ def _rolled_off(
     import cv2
 
     excess = np.subtract(knee, picture)  # -e
-    # h = shoulder * (limit - before), kept away from 0 on its own side.
+    # h = shoulder * (white - before) upwards, toe * (black - before) downwards, kept away from 0 on its own side.
     upwards = cv2.threshold(excess, 0, 1, cv2.THRESH_BINARY_INV)[1]
     headroom = np.asarray(upwards, np.float32).reshape(excess.shape)
-    headroom *= np.float32(shoulder) * (white - black) + np.float32(2 * _LEAST_HEADROOM)
-    headroom += np.float32(shoulder) * black - np.float32(_LEAST_HEADROOM)
-    headroom -= before * np.float32(shoulder)
+    below = np.float32(toe) * (black - before) - np.float32(_LEAST_HEADROOM)
+    above = np.float32(shoulder) * (white - before) + np.float32(_LEAST_HEADROOM)
+    above -= below
+    headroom *= above
+    headroom += below
     excess /= headroom
     np.expm1(excess, out=excess)
     excess *= headroom

@@ -16,6 +16,7 @@ from pydantic import Field
 
 from graphface import Formerly, node
 from graphface.nodes.blur import blurred
+from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.face_outlines import EYES, LIPS
 from graphface.nodes.face_scale import FaceScale, face_scale
@@ -71,21 +72,28 @@ def shadow_color(
     own_face = np.ones_like(skin) if face is None else copy.down(face)
     usual, limit, lit = _lit_skin(small, skin * own_face * bare + _LEAST, max(sigma * copy.interocular, 0.5))
     dark = _darkness(channel_mean(small), usual, threshold) * own_face * bare
-    factors = copy.up(_adaptation(small, lit, dark, copy) * in_three_channels(bare))
-    usual, limit, lit, bare = copy.up(usual), copy.up(limit), copy.up(lit), copy.up(bare)
-    result = np.empty_like(albedo)
+    excess = copy.up((_adaptation(small, lit, dark, copy) - 1) * in_three_channels(bare))
+    maps = [copy.up(values) for values in (usual, limit, bare, lit, excess)]
+    window = None if face is None else bounding_box(face)
+    result = albedo.copy()
+    if face is not None and window is None:
+        return result
+    rows, columns = window or (slice(0, albedo.shape[0]), slice(0, albedo.shape[1]))
 
-    def strip(rows: slice) -> None:
-        brightness, grey = channel_mean(photo.pixels[rows]), channel_mean(albedo[rows])
-        is_face = np.float32(1) if face is None else face[rows]
-        share = _darkness(brightness, usual[rows], threshold) * is_face
-        adapted = albedo[rows] * np.exp(factors[rows] * in_three_channels(share))
-        adapted = _less_saturated(adapted, limit[rows], share)
+    def strip(part: slice) -> None:
+        place = slice(rows.start + part.start, rows.start + part.stop), columns
+        own, brightness = albedo[place], channel_mean(photo.pixels[place])
+        usual, limit, bare, lit, excess = (values[place] for values in maps)
+        is_face = np.float32(1) if face is None else face[place]
+        grey = channel_mean(own)
+        share = _darkness(brightness, usual, threshold) * is_face
+        adapted = own * (1 + excess * in_three_channels(share))
+        adapted = _less_saturated(adapted, limit, share)
         adapted *= in_three_channels(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)))
-        share = _darkness(brightness, usual[rows], black) * is_face * bare[rows]
-        result[rows] = adapted + in_three_channels(share) * (in_three_channels(grey) * lit[rows] - adapted)
+        share = _darkness(brightness, usual, black) * is_face * bare
+        result[place] = adapted + in_three_channels(share) * (in_three_channels(grey) * lit - adapted)
 
-    by_strips(strip, result.shape)
+    by_strips(strip, (rows.stop - rows.start, columns.stop - columns.start, 3))
     return result
 
 
@@ -94,10 +102,13 @@ def _lit_skin(small: FloatArray, skin: FloatArray, sigma: float) -> tuple[FloatA
     brightness, saturation = _mean_and_saturation(small)
     weight = skin * np.square(brightness) + np.float32(1e-9)
     sums = blurred(np.dstack([weight, weight * brightness, weight * saturation]), sigma)
-    color = small / in_three_channels(np.maximum(brightness, _LEAST))
-    lit = blurred(color * in_three_channels(weight), sigma) / sums[..., :1]
-    lit /= in_three_channels(np.maximum(channel_mean(lit), _LEAST))
+    lit = blurred(_color(small, brightness) * in_three_channels(weight), sigma) / sums[..., :1]
     return sums[..., 1] / sums[..., 0], sums[..., 2] / sums[..., 0], lit
+
+
+def _color(pixels: FloatArray, brightness: FloatArray) -> FloatArray:
+    """Pixels over their brightness: the mean of the channels is 1, and black is grey."""
+    return (pixels + _LEAST) / in_three_channels(brightness + _LEAST)
 
 
 def _darkness(brightness: FloatArray, usual: FloatArray, threshold: float) -> FloatArray:
@@ -109,13 +120,13 @@ def _darkness(brightness: FloatArray, usual: FloatArray, threshold: float) -> Fl
 
 
 def _adaptation(small: FloatArray, lit: FloatArray, dark: FloatArray, copy: FaceScale) -> FloatArray:
-    """Logarithms, h x w x 3, of the factors from the mean color of the dark skin around to that of lit skin."""
+    """The factors, h x w x 3, from the mean color of the dark skin around to that of lit skin."""
     weight = dark + np.float32(1e-4)
-    color = small / in_three_channels(np.maximum(channel_mean(small), _LEAST))
+    color = _color(small, channel_mean(small))
     sigma = max(_REGION * copy.interocular, 0.5)
     own = blurred(color * in_three_channels(weight), sigma) / in_three_channels(blurred(weight, sigma))
     factors = np.maximum(lit, _LEAST) / np.maximum(own, _LEAST)
-    return np.asarray(np.log(np.clip(factors, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR)), np.float32)
+    return np.asarray(np.clip(factors, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR), np.float32)
 
 
 def _less_saturated(color: FloatArray, limit: FloatArray, share: FloatArray) -> FloatArray:

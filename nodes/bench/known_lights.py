@@ -134,7 +134,7 @@ def _relit_subject(cases: Sequence[Case], variants: Sequence[Variant], out: Path
     photo = cases[0].photo
     sessions = []
     for variant in variants:
-        graph = load("relight", replace=variant.replace, set={"face/working.encoding": photo.encoding, **variant.set})
+        graph = load("relight", replace=variant.replace, set=variant.set)
         sessions.append(Session(graph, {"photo": photo}, evaluator=evaluator, history=1))
     made: list[list[tuple[dict[str, float], bytes]]] = [[] for _ in variants]
     for case in cases:

@@ -26,10 +26,13 @@ _BEFORE = 6
 
 _EFFECTS = {"shadows": "shadows", "scatter": "scattering", "highlights": "highlights", "composite": "labels"}
 
+_SUN = {"type": "directional", "azimuth": -40, "shadow": "none"}
+_SPOT = {"type": "spot", "azimuth": -40, "elevation": 20, "cone": 40}
+
 PLAIN: dict[str, dict[str, Any]] = {
     "harmonics only": {"lights": [{"type": "sh", "preset": "left"}], "background": 1, "hair": 0},
-    "sun, no shadow": {"ambient": 0.3, "lights": [{"type": "directional", "azimuth": -40, "shadow": "none"}]},
-    "soft-shadowed spot": {"ambient": 0.3, "lights": [{"type": "spot", "azimuth": -40, "elevation": 20, "cone": 40}]},
+    "sun, no shadow": {"specular": 0, "ambient": 0.3, "lights": [_SUN]},
+    "soft-shadowed spot": {"specular": 0, "ambient": 0.3, "lights": [_SPOT]},
 }
 """Edits that the targets of interactive speed name."""
 

@@ -11,14 +11,14 @@ if TYPE_CHECKING:
     from graphface.nodes.morphable.model import MorphableModel
 
 app: typer.Typer = typer.Typer(
-    help="List, import, describe, learn or correct 3-D face models; learn the network that labels.",
+    help="List, import, describe, learn, correct or reduce 3-D face models; learn the network that labels.",
     no_args_is_help=True,
 )
 
 
 @app.callback()
 def models() -> None:
-    """List, import, describe, learn or correct 3-D face models."""
+    """List, import, describe, learn, correct or reduce 3-D face models."""
 
 
 @app.command("list")
@@ -114,6 +114,23 @@ def relief(
     better, off = relief_of_heads(load_model(model, refine=False), data)
     save_model(better, out, half=True)
     print(f"{out}: normals off by " + ", ".join(f"{degrees:.2f} degrees {when}" for when, degrees in off.items()))
+
+
+@app.command()
+def head(
+    source: Annotated[Path, typer.Argument(help="ICT-FaceKit: its folder FaceXModel, or packed as .npz.")],
+    data: Annotated[Path, typer.Option(help="Folder of ground truth; it holds truth/.")] = Path("../shared/data"),
+    out: Annotated[Path, typer.Option(help="File to write.")] = Path("head.safetensors"),
+    identity: Annotated[int, typer.Option(min=1, help="Identity components.")] = 20,
+    triangles: Annotated[int, typer.Option(min=500, help="Approximate number.")] = 9000,
+) -> None:
+    """Reduce ICT-FaceKit to the head of render.fitted_head: the shipped one was made so."""
+    from graphface.nodes.learning.head_model import head_model
+    from graphface.nodes.morphable.storage import save_model
+
+    model = head_model(source, data, identity=identity, triangles=triangles)
+    save_model(model, out, half=True)
+    print(f"{out}: {len(model.mean)} vertices, {len(model.triangles)} triangles, {len(model.identity)} identity")
 
 
 @app.command()

@@ -17,16 +17,9 @@ from graphface import node, warn
 from graphface.nodes.head_shape import CRANIUM
 from graphface.nodes.morphable.normals import vertex_normals
 from graphface.nodes.morphable.topology import FOREHEAD, facemesh_topology
+from graphface.nodes.render.head_pose import face_points, head_pose
 from graphface.nodes.render.neck import Points, Solid, grid_triangles, neck, underside
 from graphface.nodes.types import Mesh
-
-_LEAST_POINTS = 100
-"""FaceMesh points that must be known on a mesh to estimate the head's pose."""
-
-
-_LARGEST_DISTANCE = 0.2
-"""Root mean square distance from the posed mean face, in its unit, above which points are not those of FaceMesh."""
-
 
 _FACE_GAP, _JAW_GAP = 0.2, 0.35
 """Gap between the cranium and the middle of the face, and between the cranium and the jaw, as shares of the cranium's
@@ -56,9 +49,9 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
     """
     if not solids:
         return mesh
-    face = _face_points(mesh)
+    face = face_points(mesh)
     known = np.asarray(np.isfinite(face).all(axis=1))
-    pose = _pose(face[known], known)
+    pose = head_pose(face[known], facemesh_topology().mean[known])
     if pose is None:
         warn("render.head: the pose of the head cannot be estimated from this mesh; no head is added to it")
         return mesh
@@ -80,37 +73,6 @@ def head(mesh: Mesh, *, solids: bool = True) -> Mesh:
         normals=np.concatenate(normals),
         uv=None if mesh.uv is None else np.concatenate([mesh.uv, np.zeros((count - len(mesh.uv), 2), np.float32)]),
     )
-
-
-def _face_points(mesh: Mesh) -> Points:
-    """The 468 points of FaceMesh on a mesh, (468, 3); NaN where the mesh does not know them."""
-    face = np.full(facemesh_topology().mean.shape, np.nan)
-    if mesh.facemesh is not None and len(mesh.facemesh) == len(face):
-        known = (mesh.facemesh >= 0) & (mesh.facemesh < len(mesh.vertices))
-        face[known] = mesh.vertices[mesh.facemesh[known]]
-    return face
-
-
-def _pose(points: Points, known: NDArray[np.bool_]) -> tuple[Points, float, Points] | None:
-    """Rotation, scale and origin of the mean face in the camera frame, by its known points.
-
-    Umeyama, Least-Squares Estimation of Transformation Parameters Between Two Point Patterns, TPAMI 1991, equations
-    40 to 42. None where they are not the points of a face.
-    """
-    if len(points) < _LEAST_POINTS:
-        return None
-    mean = facemesh_topology().mean[known].astype(np.float64)
-    mean_middle, middle = mean.mean(axis=0), points.mean(axis=0)
-    u, singular, vt = np.linalg.svd((points - middle).T @ (mean - mean_middle))
-    sign = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
-    rotation = (u * sign) @ vt
-    scale = float((singular * sign).sum() / max(np.square(mean - mean_middle).sum(), 1e-12))
-    if scale <= 1e-6:
-        return None
-    misfit = (points - middle) / scale - (mean - mean_middle) @ rotation.T
-    if float(np.sqrt(np.square(misfit).sum(axis=1).mean())) > _LARGEST_DISTANCE:
-        return None
-    return rotation, scale, middle - scale * rotation @ mean_middle
 
 
 def _normals(face: Points) -> Points:

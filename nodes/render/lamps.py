@@ -11,6 +11,8 @@ from pydantic import Field
 from graphface import node
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean
+from graphface.nodes.face_scale import face_scale
+from graphface.nodes.head_shape import CHIN, pose_of
 from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask, Segmentation
 
@@ -20,6 +22,9 @@ _GLOW = (0.55, 0.85)
 _MOST = 256
 """Spots that are looked at, the largest first: a picture of a thousand specks has no lamps."""
 
+_SHOULDERS = 2.5
+"""Half their width and some, in inter-ocular distances."""
+
 _LEAST_PIXELS = 4
 
 
@@ -28,47 +33,63 @@ def lamps(
     photo: Image,
     labels: Segmentation,
     landmarks: Landmarks,
+    head: Mask | None = None,
     *,
     blown: Annotated[float, Field(gt=0, le=1)] = 0.97,
     largest: Annotated[float, Field(ge=0, le=100)] = 1.0,
     contrast: Annotated[float, Field(ge=0, le=1)] = 0.25,
     glow: Annotated[float, Field(ge=0, le=2)] = 0.1,
+    resolution: Annotated[int, Field(ge=8, le=1024)] = 96,
 ) -> Mask:
     """Small blown spots of the background that stand out from what is around them: lamps, candles, the sun, reflexes.
 
     Args:
+        head: the head by its geometry, H x W; a highlight on it is no lamp, whatever its label.
         blown: least value of every channel in a spot.
         largest: area up to which a spot is a lamp and not a white wall or a window, in squares of the inter-ocular
             distance.
         contrast: how much darker than white the darkest quarter of its surroundings is at least.
         glow: width of the bright rim that belongs to a lamp, in inter-ocular distances.
+        resolution: pixels per inter-ocular distance of the copy on which spots are looked at.
 
     Returns:
         H x W in [0, 1]: the share of a pixel that is a source of light.
     """
     import cv2
 
-    pixels, unit = photo.pixels, max(landmarks.interocular, 1e-3)
-    spots = ((pixels.min(axis=2) >= blown) & (labels.background > 0.5)).astype(np.uint8)
-    nothing = np.zeros(spots.shape, np.float32)
-    if not spots.any():
+    copy = face_scale(landmarks, photo.pixels.shape, resolution)
+    background, nothing = labels.background, np.zeros(photo.pixels.shape[:2], np.float32)
+    blown_out = np.minimum(np.minimum(photo.pixels[..., 0], photo.pixels[..., 1]), photo.pixels[..., 2]) >= blown
+    blown_out &= background > 0.5
+    if head is not None:
+        blown_out &= head == 0
+    if not blown_out.any():
         return nothing
-    intensity = channel_mean(pixels)
-    count, numbers, boxes, _ = cv2.connectedComponentsWithStats(spots)
+    spots = (copy.down(blown_out.astype(np.float32)) > 0.5).astype(np.uint8)
+    intensity, wall = copy.down(channel_mean(photo.pixels)), copy.down(background)
+    count, numbers, boxes, middles = cv2.connectedComponentsWithStats(spots)
     areas = boxes[:, cv2.CC_STAT_AREA]
-    small = np.flatnonzero((areas >= _LEAST_PIXELS) & (areas <= max(largest * unit * unit, _LEAST_PIXELS)))
-    small = small[small > 0]
+    small = np.flatnonzero(areas <= max(largest * copy.interocular**2, 1))
+    small = small[(small > 0) & ~_on_body(middles[small] / copy.scale, landmarks)]
     candidates = small[np.argsort(-areas[small], kind="stable")][:_MOST]
     kept = np.zeros(count, np.float32)
     for number in candidates:
-        kept[number] = _stands_out(numbers, number, boxes[number, :4], spots, labels.background, intensity, contrast)
+        kept[number] = _stands_out(numbers, number, boxes[number, :4], spots, wall, intensity, contrast)
     if not kept.any():
         return nothing
-    side = 2 * max(1, round(glow * unit / 2)) + 1
+    width = glow * copy.interocular
+    side = 2 * max(1, round(width / 2)) + 1
     grown = cv2.dilate(kept[numbers], cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side)))
-    soft = blurred(np.asarray(grown, np.float32), max(glow * unit / 4, 0.5))
-    bright = smoothstep((intensity - np.float32(_GLOW[0])) / np.float32(_GLOW[1] - _GLOW[0]))
-    return np.asarray(soft * bright * labels.background, np.float32)
+    soft = blurred(np.asarray(grown, np.float32), max(width / 4, 0.5))
+    soft *= smoothstep((intensity - np.float32(_GLOW[0])) / np.float32(_GLOW[1] - _GLOW[0]))
+    return np.asarray(copy.up(soft) * background, np.float32)
+
+
+def _on_body(points: NDArray[np.float64], landmarks: Landmarks) -> NDArray[np.bool_]:
+    """Whether points (n, 2) lie below the face and within the width of the shoulders: white collars are no lamps."""
+    pose = pose_of(landmarks)
+    right, up = pose.locate(*np.asarray(points, np.float32).T)
+    return np.asarray((up < CHIN) & (np.abs(right) < _SHOULDERS))
 
 
 def _stands_out(

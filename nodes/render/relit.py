@@ -18,8 +18,8 @@ def _needs(scene: Scene) -> Needs:
     if scene.unchanged:
         same = "the scene is the photo's own light: nothing changes"
         return {"albedo": same, "shading": same, "detail": same, "highlights": same}
-    dull = "the scene asks for no highlights (specular: 0)"
-    return {"albedo": True, "shading": True, "detail": True, "highlights": scene.specular > 0 or dull}
+    dull = "the scene has no light that makes highlights, or asks for none (specular: 0)"
+    return {"albedo": True, "shading": True, "detail": True, "highlights": scene.glossy or dull}
 
 
 @node("render.relit", needs=_needs)
@@ -32,6 +32,7 @@ def relit(
     highlights: Lazy[Shading] = None,
     *,
     shoulder: Annotated[float, Field(ge=0, le=1)] = 0.5,
+    toe: Annotated[float, Field(ge=0, le=1)] = 0.25,
 ) -> Image:
     """I^(n)(x) = rho(x) s^(n)(x) + I_d(x) (paper, equation 5), plus highlights.
 
@@ -41,7 +42,8 @@ def relit(
         photo: the picture before, in the encoding of albedo, shading and detail.
         shading: s^(n), under the new light, H x W or H x W x 3.
         highlights: linear light that is added, H x W x 3.
-        shoulder: see `blend.recombine`.
+        shoulder, toe: see `blend.recombine`. A large toe keeps the depth of a shadow grey and lit: on photographs under
+            known lights (Yale) 0.5 errs by .0090, 0.25 by .0084, 0.1 by .0085.
 
     Raises:
         UsageError: albedo, shading or detail is missing, and the scene changes the light.
@@ -50,7 +52,7 @@ def relit(
         return photo
     if albedo is None or shading is None or detail is None:
         raise UsageError("render.relit needs albedo, shading and detail unless the scene leaves the photo as it is")
-    image = recombined(photo, albedo, shading, detail, shoulder=shoulder)
+    image = recombined(photo, albedo, shading, detail, shoulder=shoulder, toe=toe)
     if highlights is None or not highlights.any():
         return image
     return image.with_pixels(_with_highlights(image, highlights))
@@ -65,8 +67,10 @@ def _with_highlights(image: Image, highlights: FloatArray) -> FloatArray:
     def strip(rows: slice) -> None:
         part, light = image.pixels[rows], highlights[rows]
         if light.any():
-            # A value above white stays. Where no light is added the value stays to the last bit.
-            brighter = np.minimum(encode_srgb(decode_srgb(part) + light), np.maximum(part, 1))
+            # On bright skin a highlight fades into white instead of burning out: the share of the way to white that it
+            # takes on black. A value above white stays. Where no light is added the value stays to the last bit.
+            before = decode_srgb(part)
+            brighter = np.maximum(encode_srgb(before + np.minimum(light, 1) * np.maximum(1 - before, 0)), part)
             part = np.where(light > 0, brighter, part)
         pixels[rows] = part
 

@@ -62,20 +62,20 @@ class Scene(Part):
     exposure: Annotated[float, Field(ge=0, le=100, description="Multiplies the light that results.")] = 1.0
     background: Annotated[
         float, Field(ge=0, le=1, description="Share of the new light on what is neither face nor hair.")
-    ] = 0.35
+    ] = 0.6
     hair: Annotated[
         float, Field(ge=0, le=1, description="Share of the old light that hair keeps at its highlights.")
-    ] = 0.5
+    ] = 0.3
     scatter: Annotated[
         float,
         Field(ge=0, le=1, description="Radius, in inter-ocular distances, over which light spreads beneath the skin."),
     ] = 0.0
     specular: Annotated[
         float, Field(ge=0, le=10, description="Strength of the highlights that the new lights make on the skin.")
-    ] = 0.0
+    ] = 0.5
     roughness: Annotated[
         float, Field(ge=0.05, le=1, description="Width of these highlights: the roughness of the skin's surface.")
-    ] = 0.35
+    ] = 0.5
 
     @property
     def colored(self) -> bool:
@@ -104,6 +104,13 @@ class Scene(Part):
     def surrounded(self) -> bool:
         """Whether a panorama lights the face."""
         return any(isinstance(light, EnvironmentLight) and light.radiance.any() for light in self.lights)
+
+    @property
+    def glossy(self) -> bool:
+        """Whether a light makes highlights on the skin."""
+        return self.specular > 0 and any(
+            not isinstance(light, HarmonicLight | EnvironmentLight) and light.radiance.any() for light in self.lights
+        )
 
     @property
     def casting(self) -> dict[int, Casting]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphface.nodes.detail.additive import additive
+from graphface.nodes.detail.split import split
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.rendering import applied, recombined, rendering
 from graphface.nodes.types import (
@@ -80,3 +83,32 @@ class TestRendering:
         np.testing.assert_allclose(rendering(albedo, np.float32([[0.5]])), [[[0.1, 0.2, 0.4]]])
         np.testing.assert_allclose(rendering(albedo, np.float32([[[1, 0.5, 0]]])), [[[0.2, 0.2, 0]]])
         np.testing.assert_array_equal(albedo, np.float32([[[0.2, 0.4, 0.8]]]))
+
+
+class TestAddedLight:
+    @staticmethod
+    def lit(light, encoded=np.float32([0.10, 0.04, 0.08])):
+        """A dark purple pixel whose albedo is grey, under `light` times its own light."""
+        photo = Image(encoded[None, None])
+        albedo = np.ones((1, 1, 3), np.float32)
+        own = np.full((1, 1), encoded.mean(), np.float32)
+        detail = split(photo, albedo, own)
+        return recombined(photo, albedo, own * np.float32(light), detail).pixels[0, 0]
+
+    def test_fades_the_color_of_a_shadow(self):
+        """The more light is added, the nearer the pixel's color is to the albedo's."""
+        tints = [np.ptp(found) / found.mean() for found in map(self.lit, (1, 1.5, 2.5, 6))]
+        assert all(after < 0.7 * before for before, after in pairwise(tints))
+
+    def test_keeps_the_brightness(self):
+        """As much is added as without the fading: what the albedo reflects."""
+        assert self.lit(3).mean() == pytest.approx(3 * 0.22 / 3, rel=1e-4)
+
+    def test_without_added_light_the_photo_stays(self):
+        """Continuous there, too."""
+        np.testing.assert_allclose(self.lit(1), [0.10, 0.04, 0.08], atol=1e-6)
+        np.testing.assert_allclose(self.lit(1.001), self.lit(1), atol=1e-3)
+
+    def test_black_stays_finite(self):
+        """Where the photo has nothing there is no color to fade."""
+        assert np.isfinite(self.lit(3, np.zeros(3, np.float32))).all()

@@ -14,7 +14,7 @@ from graphface.nodes.geometry.facemesh import facemesh
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.masks.face import face
 from graphface.nodes.morphable.topology import facemesh_topology
-from graphface.nodes.render.head import head
+from graphface.nodes.render.fitted_head import fitted_head
 from graphface.nodes.render.samples import samples
 from graphface.nodes.render.shade import shade
 from graphface.nodes.render.shadow_maps import shadow_maps
@@ -61,7 +61,7 @@ def mesh():
 
 def shaded(scene, face_mesh=None, **settings):
     own, landmarks = mesh()
-    whole = head(own) if face_mesh is None else face_mesh
+    whole = fitted_head(own) if face_mesh is None else face_mesh
     surface = rasterize(whole, photo())
     mask = face(surface, landmarks)
     estimated = render_light(fit_light(intensity(photo()).shading, surface.normals, mask).light, surface.normals)
@@ -126,7 +126,7 @@ class TestHardLights:
 class TestHardMeshes:
     def test_triangles_without_area(self):
         """Half of the triangles collapsed: finite, in range."""
-        own = head(mesh()[0])
+        own = fitted_head(mesh()[0])
         triangles = own.triangles.copy()
         triangles[::2, 1] = triangles[::2, 0]
         _, new, _ = shaded({"lights": [SUN]}, replace(own, triangles=triangles))

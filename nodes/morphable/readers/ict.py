@@ -42,9 +42,12 @@ _CARD = {"license": "MIT", "source": "ICT-FaceKit, USC Institute for Creative Te
 
 
 @dataclass(frozen=True)
-class _Head:
+class IctHead:
+    """The whole head in the makers' units: `mean` (V, 3), `polygons` (F, 4), `identity` and `expression` (K, V, 3)
+    differences to the mean, `names` of the expressions, `landmarks` (68,) vertices."""
+
     mean: NDArray[np.float32]
-    triangles: NDArray[np.int64]
+    polygons: NDArray[np.int64]
     identity: NDArray[np.float32]
     expression: NDArray[np.float32]
     names: tuple[str, ...]
@@ -58,12 +61,12 @@ def read_ict(source: Path, _landmarks: Path | None = None) -> MorphableModel:
     Raises:
         UnreadableFile: files are missing or do not agree.
     """
-    head = _from_folder(source) if source.is_dir() else _from_archive(source)
+    head = read_head(source)
     model = assemble(
         source,
         "ict",
         head.mean,
-        head.triangles,
+        triangles_of(head.polygons[:_NARROW_FACE]),
         head.identity,
         head.expression * np.float32(_DEVIATION),
         head.landmarks,
@@ -74,15 +77,24 @@ def read_ict(source: Path, _landmarks: Path | None = None) -> MorphableModel:
     return with_facemesh_points(model)
 
 
-def _from_archive(path: Path) -> _Head:
+def read_head(source: Path) -> IctHead:
+    """The makers' folder or a packed .npz, with every part of the head.
+
+    Raises:
+        UnreadableFile: files are missing or do not agree.
+    """
+    return _from_folder(source) if source.is_dir() else _from_archive(source)
+
+
+def _from_archive(path: Path) -> IctHead:
     """The arrays `mean`, `identity`, `expression` (differences to the mean), `faces` or `triangles`, `landmarks68`."""
     try:
         with np.load(path, allow_pickle=False) as file:
-            polygons = file["faces"][:_NARROW_FACE]
+            polygons = file["faces"]
             uv = file["uv"][file["uv_index_of_vertex"]] if "uv_index_of_vertex" in file else None
-            return _Head(
+            return IctHead(
                 mean=file["mean"],
-                triangles=_fan(polygons.astype(np.int64)),
+                polygons=polygons.astype(np.int64),
                 identity=file["identity"],
                 expression=file["expression"],
                 names=tuple(str(name) for name in file["expression_names"]),
@@ -95,7 +107,7 @@ def _from_archive(path: Path) -> _Head:
         raise UnreadableFile(path, f"not a packed ICT-FaceKit: lacks {error.args[0]!r}") from None
 
 
-def _from_folder(folder: Path) -> _Head:
+def _from_folder(folder: Path) -> IctHead:
     neutral = next(folder.rglob("generic_neutral_mesh.obj"), None)
     if neutral is None:
         raise UnreadableFile(folder, "holds no generic_neutral_mesh.obj; give the folder FaceXModel of ICT-FaceKit")
@@ -105,9 +117,9 @@ def _from_folder(folder: Path) -> _Head:
     expressions = [path for path in others if not path.stem.startswith("identity")]
     if not identities:
         raise UnreadableFile(folder, "holds no identityNNN.obj")
-    return _Head(
+    return IctHead(
         mean=mean,
-        triangles=_fan(polygons[:_NARROW_FACE]),
+        polygons=polygons.astype(np.int64),
         identity=_differences(identities, mean),
         expression=_differences(expressions, mean),
         names=tuple(path.stem for path in expressions),
@@ -141,7 +153,7 @@ def _differences(paths: list[Path], mean: NDArray[np.float32]) -> NDArray[np.flo
     return np.stack(shapes) if shapes else np.zeros((0, *mean.shape), np.float32)
 
 
-def _fan(polygons: NDArray[np.int64]) -> NDArray[np.int64]:
+def triangles_of(polygons: NDArray[np.int64]) -> NDArray[np.int64]:
     """Polygons of four corners (or three, the last twice) as triangles."""
     triangles = np.concatenate([polygons[:, [0, 1, 2]], polygons[:, [0, 2, 3]]])
     proper: NDArray[np.int64] = triangles[triangles[:, 1] != triangles[:, 2]]

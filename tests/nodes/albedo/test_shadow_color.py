@@ -1,4 +1,4 @@
-"""Shadow color: dark skin is at most as saturated as the lit skin around it."""
+"""Shadow color: dark skin has the color of the lit skin around it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from shapes import eyes_apart
 
 from graphface.nodes.albedo.shadow_color import shadow_color
-from graphface.nodes.types import Image
+from graphface.nodes.face_outlines import LIPS
+from graphface.nodes.types import Image, Landmarks
 
 SIDE, INTEROCULAR = 96, 40.0
 SKIN, ORANGE = np.float32([1.3, 0.95, 0.75]), np.float32([2.0, 0.8, 0.2])
@@ -23,8 +24,8 @@ def spotted(light=0.2, color=ORANGE):
     return np.where(spot[..., None], color, SKIN), np.where(spot, light, 0.6).astype(np.float32), spot
 
 
-def tamed(albedo, shading, mask=EVERYWHERE, interocular=INTEROCULAR):
-    return shadow_color(albedo, Image(albedo * shading[..., None]), mask, eyes_apart(interocular))
+def tamed(albedo, shading, mask=EVERYWHERE, interocular=INTEROCULAR, **given):
+    return shadow_color(albedo, Image(albedo * shading[..., None]), mask, eyes_apart(interocular), **given)
 
 
 def saturation(color):
@@ -32,30 +33,59 @@ def saturation(color):
 
 
 class TestShadowColor:
-    def test_a_dark_spot_is_no_more_saturated_than_skin(self):
-        """Its brightness stays."""
-        albedo, shading, spot = spotted()
+    @pytest.mark.parametrize("color", [ORANGE, np.float32([1.0, 0.6, 1.4]), np.float32([1, 1, 1])])
+    def test_a_dark_spot_has_the_color_of_lit_skin(self, color):
+        """Whatever its own; its brightness stays."""
+        albedo, shading, spot = spotted(color=color)
         found = tamed(albedo, shading)[spot]
-        np.testing.assert_allclose(saturation(found), saturation(SKIN), rtol=0.1)
-        np.testing.assert_allclose(found.mean(axis=1), ORANGE.mean(), rtol=1e-4)
+        np.testing.assert_allclose(found / found.mean(axis=1, keepdims=True), [SKIN / SKIN.mean()] * len(found), atol=0.05)
+        np.testing.assert_allclose(found.mean(axis=1), color.mean(), rtol=1e-4)
 
-    def test_hue_stays(self):
-        """The order and the relative distances of the channels."""
+    def test_what_is_no_skin_stays(self):
+        """A collar beside the face."""
         albedo, shading, spot = spotted()
-        found = tamed(albedo, shading)[spot][0]
-        own = (ORANGE[1] - ORANGE[2]) / (ORANGE[0] - ORANGE[2])
-        assert (found[1] - found[2]) / (found[0] - found[2]) == pytest.approx(own, rel=1e-4)
+        found = tamed(albedo, shading, face=np.where(spot, 0, 1).astype(np.float32))
+        np.testing.assert_allclose(found[spot], albedo[spot], rtol=1e-5)
 
-    @pytest.mark.parametrize(("light", "color"), [(0.6, ORANGE), (0.2, SKIN), (0.2, np.float32([1, 1, 1]))])
-    def test_bright_or_pale_stays(self, light, color):
-        """Lips in full light, shadow of the skin's own color, grey hair."""
+    def test_without_skin_nothing_changes(self):
+        """The label is empty."""
+        albedo, shading, _ = spotted()
+        np.testing.assert_array_equal(tamed(albedo, shading, face=np.zeros_like(EVERYWHERE)), albedo)
+
+    def test_a_spot_on_a_shadow_side_goes_on_differing(self):
+        """A purple half of a face takes the hue of the lit half; a mole in it stays redder than what surrounds it."""
+        purple, mole = SKIN * np.float32([0.9, 0.7, 1.3]), SKIN * np.float32([1.1, 0.6, 1.0])
+        y, x = np.mgrid[:SIDE, :SIDE]
+        dark, spot = x >= SIDE // 2, np.hypot(x - 70, y - 48) < 2
+        albedo = np.where(spot[..., None], mole, np.where(dark[..., None], purple, SKIN))
+        found = tamed(albedo, np.where(dark, 0.3, 0.6).astype(np.float32), black=0.01)
+        around, redness = found[48, 80], found[..., 0] / found[..., 1]
+        assert np.abs(around / around.mean() - SKIN / SKIN.mean()).max() < 0.6 * np.abs(
+            purple / purple.mean() - SKIN / SKIN.mean()
+        ).max()
+        assert redness[48, 70] > 1.2 * redness[48, 80]
+
+    def test_lips_keep_their_hue(self):
+        """Dark lips are not skin in shadow."""
+        points = np.zeros((468, 3), np.float32)
+        points[263, 0] = INTEROCULAR
+        angle = np.linspace(0, 2 * np.pi, len(LIPS), endpoint=False)
+        points[list(LIPS), 0], points[list(LIPS), 1] = 48 + 9 * np.cos(angle), 48 + 9 * np.sin(angle)
+        albedo, shading, _ = spotted(color=np.float32([1.5, 0.6, 0.9]))
+        found = shadow_color(albedo, Image(albedo * shading[..., None]), EVERYWHERE, Landmarks(points, "facemesh468"))
+        lip = found[48, 48]
+        assert lip[2] > 1.2 * lip[1]
+
+    @pytest.mark.parametrize(("light", "color"), [(0.9, ORANGE), (0.2, SKIN)])
+    def test_bright_or_skin_stays(self, light, color):
+        """Paint in full light, shadow of the skin's own color."""
         albedo, shading, _ = spotted(light, color)
         np.testing.assert_allclose(tamed(albedo, shading), albedo, atol=0.02)
 
     def test_sets_in_gradually(self):
         """No edge where a spot is a little darker than another."""
         steps = []
-        for light in np.linspace(0.05, 0.6, 60):
+        for light in np.linspace(0.05, 0.9, 90):
             albedo, shading, spot = spotted(light)
             steps.append(saturation(tamed(albedo, shading)[spot]).mean())
         assert np.abs(np.diff(steps)).max() < 0.05

@@ -8,7 +8,7 @@ import pytest
 from graphface.nodes.bench import scene_cost
 from graphface.nodes.io.image_write import write_picture
 
-ON_ITS_OWN = "background: 1\nhair: 0\n"
+ON_ITS_OWN = "background: 1\nhair: 0\nspecular: 0\n"
 SUN = "lights: [{type: directional, azimuth: 30, shadow: %s}]\n"
 
 CALLED_FOR = {
@@ -17,9 +17,9 @@ CALLED_FOR = {
     "casting": (ON_ITS_OWN + SUN % "hard", "shadows"),
     "behind": (ON_ITS_OWN + SUN.replace("30", "180") % "soft", "none"),
     "skin": (ON_ITS_OWN + "scatter: 0.03\n" + SUN % "none", "scattering"),
-    "shiny": (ON_ITS_OWN + "specular: 1\n" + SUN % "none", "highlights"),
-    "hair": ("background: 1\nhair: 0.5\n" + SUN % "none", "labels"),
-    "backdrop": ("background: 0.5\nhair: 0\n" + SUN % "none", "labels"),
+    "shiny": ("background: 1\nhair: 0\nspecular: 1\n" + SUN % "none", "highlights"),
+    "hair": ("background: 1\nhair: 0.5\nspecular: 0\n" + SUN % "none", "labels"),
+    "backdrop": ("background: 0.5\nhair: 0\nspecular: 0\n" + SUN % "none", "labels"),
     "everything": ("scatter: 0.03\nspecular: 1\n" + SUN % "soft", "shadows, scattering, highlights, labels"),
 }
 """Scenes, and the effects that they ask for."""

@@ -48,6 +48,15 @@ class TestUnclipped:
         photo = Image(np.ones((20, 20, 3), np.float32))
         np.testing.assert_array_equal(unclipped(photo, eyes_apart(INTEROCULAR)).pixels, photo.pixels)
 
+    def test_a_wall_is_not_raised(self):
+        """Only skin is skin that lost its color."""
+        photo = clipped(shiny())
+        left = np.zeros((SIDE, SIDE), np.float32)
+        left[:, : SIDE // 2] = 1
+        found = unclipped(photo, eyes_apart(INTEROCULAR), left).pixels
+        np.testing.assert_array_equal(found[:, SIDE // 2 :], photo.pixels[:, SIDE // 2 :])
+        assert (found[:, : SIDE // 2] > 1.02).any()
+
     def test_grey_stays_grey(self):
         """A black-and-white photo has no color to give back."""
         grey = np.repeat(np.minimum(shiny()[..., :1], 1), 3, axis=2)

@@ -47,6 +47,15 @@ class TestComposite:
         np.testing.assert_allclose(mixed[:, 3], 0.8)
         np.testing.assert_allclose(mixed[:, 4], 0.6, atol=1e-6)
 
+    def test_a_lamp_keeps_its_light(self):
+        """With labels and without them."""
+        lamp = np.zeros(SHAPE, np.float32)
+        lamp[2, 7] = 1
+        for labels in (thirds(), None):
+            mixed = composite(OLD, NEW, Scene(background=0.25, hair=0), labels, lamps=lamp)
+            np.testing.assert_allclose(mixed[2, 7], 0.4)
+            np.testing.assert_allclose(mixed[2, 8], 0.5 if labels else 0.8)
+
     def test_an_unchanged_light_changes_nothing(self):
         """Whatever the labels."""
         scene = Scene(background=0.25, hair=0.5)

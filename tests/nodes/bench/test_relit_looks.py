@@ -1,0 +1,76 @@
+"""`graphface bench looks`: what a scorer of visible defects reads, and the strength of the light."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from graphface import load
+from graphface.nodes.bench.relit_looks import relit_looks
+from graphface.nodes.bench.shipped import scene_file
+from graphface.nodes.io.image_read import read_image
+from graphface.nodes.io.image_write import write_picture
+
+pytestmark = pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")
+
+LEFT = "lights: [{type: directional, azimuth: -80, shadow: soft, size: 20}]\nambient: 0.2\n"
+EVEN = "ambient: 1\n"
+
+
+@pytest.fixture(scope="module")
+def looks(face, tmp_path_factory):
+    """One photo and one file that is no photo, under light from the left and under even light."""
+    folder = tmp_path_factory.mktemp("looks")
+    write_picture(face, folder / "me.png")
+    (folder / "none.png").write_text("no picture")
+    for name, text in (("left", LEFT), ("even", EVEN)):
+        (folder / f"{name}.yaml").write_text(text)
+    photos = [folder / "none.png", folder / "me.png"]
+    scenes = [folder / "left.yaml", folder / "even.yaml"]
+    found = list(relit_looks(photos, scenes, load("relight"), folder / "out", 100))
+    return found, folder / "out"
+
+
+class TestRelitLooks:
+    def test_a_case_for_each_photo_and_scene(self, looks):
+        """What cannot be read is left out."""
+        assert [(look.photo, look.scene) for look in looks[0]] == [("me", "left"), ("me", "even")]
+
+    @pytest.mark.parametrize("scene", ["left", "even"])
+    def test_files(self, looks, scene):
+        """The pictures agree in size; labels add up to one; there are the points of FaceMesh."""
+        case = looks[1] / scene / "me"
+        pictures = {name: read_image(case / f"{name}.png").pixels for name in ("photo", "result", "face", "hair")}
+        pictures["background"] = read_image(case / "background.png").pixels
+        assert {p.shape for p in pictures.values()} == {pictures["photo"].shape}
+        assert max(pictures["photo"].shape) == 100
+        total = sum(pictures[name] for name in ("face", "hair", "background"))
+        np.testing.assert_allclose(total, 1, atol=0.02)
+        assert len(np.load(case / "points.npy")) == 468
+
+    def test_strength(self, looks):
+        """The far cheek is darker; even light comes from no side."""
+        left, even = looks[0]
+        assert 0 < left.cheeks < 0.8
+        assert math.isnan(even.cheeks)
+
+    def test_rim(self, looks):
+        """A share where a shadow is cast, else nothing."""
+        left, even = looks[0]
+        assert math.isnan(left.rim) or 0 <= left.rim <= 1
+        assert math.isnan(even.rim)
+
+
+class TestSceneFile:
+    def test_by_name_and_by_path(self, tmp_path):
+        """Shipped scenes have names."""
+        assert scene_file("candle").name == "candle.yaml"
+        (tmp_path / "mine.yaml").write_text(EVEN)
+        assert scene_file(str(tmp_path / "mine.yaml")) == tmp_path / "mine.yaml"
+
+    def test_neither(self):
+        """The nearest name is offered."""
+        with pytest.raises(Exception, match="candel.*candle"):
+            scene_file("candel")
