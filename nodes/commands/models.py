@@ -162,6 +162,51 @@ def labels(
     print(f"{out}: from {made['variations']} variations of {made['photographs']} photographs and of truth")
 
 
+@app.command()
+def render(
+    out: Annotated[Path, typer.Argument(help="Folder to fill, NUMBER.npz each; what is there is not rendered again.")],
+    head: Annotated[Path, typer.Option(help="Your copy of ICT-FaceKit (MIT), packed as NumPy arrays.")],
+    count: Annotated[int, typer.Option(min=1, help="Number of examples.")] = 100,
+    seed: Annotated[int, typer.Option(min=0, help="Number of the first; each example depends on its number.")] = 0,
+    size: Annotated[int, typer.Option(min=16, max=1024, help="Pixels along a side.")] = 224,
+    samples: Annotated[int, typer.Option(min=1, help="Paths through a pixel; what is left of noise is filtered.")] = 4,
+) -> None:
+    """Render heads with everything known about them; needs graphface[truth].
+
+    Each example is a random person (identity, expression, bumps and wrinkles that no model has, skin, make-up, stubble,
+    hair), pose, lens, light and camera. NUMBER.npz holds `photo` (sRGB), `normals` (127 times the unit normal in the
+    camera frame), `depth` (inter-ocular distances), `labels` (0 rest, 1 skin, 2 eyes and teeth), `reaching` (255 times
+    the share of the first lamp that reaches a pixel) and `facts` (JSON: lights, pose, camera).
+
+    A run that was stopped goes on where it was. One process uses one core: start several, with seeds of their own.
+    """
+    from graphface.nodes.learning.rendering.folder import render_folder
+
+    made = sum(new for _, new in render_folder(head, out, range(seed, seed + count), size=size, samples=samples))
+    print(f"{out}: {made} rendered, {count - made} were there")
+
+
+@app.command()
+def normals(
+    examples: Annotated[Path, typer.Argument(help="Folder that `models render` filled.")],
+    out: Annotated[Path, typer.Option(help="File to write.")] = Path("normals.safetensors"),
+    minutes: Annotated[float, typer.Option(min=0, help="Of training, once the examples are read.")] = 20,
+    threads: Annotated[int, typer.Option(min=1, help="Of PyTorch.")] = 2,
+    card: Annotated[Path | None, typer.Option(help="JSON with more for the model's card.")] = None,
+) -> None:
+    """Learn the small network of surface.refined from rendered heads; needs graphface[learn]."""
+    from graphface.nodes.learning.face_model import read_card
+    from graphface.nodes.learning.normal_learning import learn_normals
+    from graphface.nodes.network_weights import write_network
+    from graphface.nodes.surface.normal_network import NETWORK
+
+    given = read_card(card)
+    weights, made = learn_normals(examples, minutes=minutes, threads=threads)
+    write_network(weights, {**given, **made}, out, NETWORK)
+    off = ", ".join(f"{degrees:.2f} degrees {when}" for when, degrees in made["degrees_off_kept_back"].items())
+    print(f"{out}: from {made['examples']} examples; normals of those kept back are off by {off}")
+
+
 def _loaded(model: str) -> MorphableModel:
     from graphface.nodes.morphable.library import named_model
 

@@ -2,48 +2,19 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from graphface import Evaluator, GraphfaceError, MemoryTier, UnreadableFile, load
-from graphface.fingerprint import fingerprint
+from graphface import UnreadableFile
+from graphface.nodes.learning.normal_lessons import Lesson, lessons_of
 from graphface.nodes.learning.normal_training import Pictures, trained
-from graphface.nodes.learning.rendering.example import BARE_SKIN, EYES_AND_TEETH, Example, read_example
 from graphface.nodes.learning.unet_training import folded
-from graphface.nodes.surface.face_crop import SIZE, face_crop
-from graphface.nodes.surface.normal_network import COVERAGE, NORMALS, network_input
-from graphface.nodes.types import Image
-from graphface.values.writing import beside, make_folder
-
-ASKED = {
-    "photo": "working",
-    "surface": "head_surface",
-    "landmarks": "landmarks",
-    "mask": "mask",
-    "light": "light",
-}
-"""Outputs of the graph `represent` behind what the network sees."""
-
-_INTERIOR = 0.25
-"""Weight of eyes and teeth, which few pixels show and which the mesh has not."""
+from graphface.nodes.surface.normal_network import COVERAGE, NORMALS
 
 _ASTRAY = 25.0
 """Degrees between fitted and true normals, in the mean, from which a face was not found where it is."""
-
-
-@dataclass(frozen=True)
-class Lesson:
-    """float16: `seen` SIZE x SIZE x CHANNELS, `normals` SIZE x SIZE x 3 and `weight` SIZE x SIZE."""
-
-    seen: NDArray[np.float16]
-    normals: NDArray[np.float16]
-    weight: NDArray[np.float16]
 
 
 def learn_normals(folder: Path, *, minutes: float, threads: int = 1) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -68,53 +39,6 @@ def learn_normals(folder: Path, *, minutes: float, threads: int = 1) -> tuple[di
     return folded(state), {"examples": len(lessons), **figures}
 
 
-def lessons_of(folder: Path) -> Iterator[Lesson]:
-    """The lesson of each example in which the graph finds a face."""
-    from rich.progress import track
-
-    graph = load("represent")
-    paths = sorted(folder.glob("*.npz"))
-    if not paths:
-        raise UnreadableFile(folder, "holds no examples; `graphface models render` makes them")
-    kept = folder / "seen" / _version(graph, read_example(paths[0]))
-    make_folder(kept)
-    for path in track(paths, description="examples", disable=not sys.stderr.isatty()):
-        own = kept / path.name
-        if not own.exists():
-            try:
-                _write(lesson_of(read_example(path), graph), own)
-            except GraphfaceError as error:
-                print(f"{path.name} is left out: {str(error).splitlines()[0]}", flush=True)
-                continue
-        yield _read(own)
-
-
-def lesson_of(example: Example, graph: Any) -> Lesson:
-    """What the network sees of an example, and what it should say.
-
-    Raises:
-        GraphfaceError: no face is found.
-    """
-    photo = Image(example.photo.astype(np.float32) / np.float32(255))
-    found = graph.run(list(ASKED.values()), evaluator=Evaluator(memory=MemoryTier()), photo=photo)
-    crop = face_crop(found["landmarks"])
-    seen = network_input(crop, **{port: found[output] for port, output in ASKED.items() if port != "landmarks"})
-    normals = crop.turned(crop.sampled(example.normals.astype(np.float32) / 127))
-    normals /= np.maximum(np.sqrt(np.square(normals).sum(axis=2, keepdims=True)), 1e-3)
-    skin, inner = (crop.sampled((example.labels == k).astype(np.float32)) for k in (BARE_SKIN, EYES_AND_TEETH))
-    known = (seen[..., COVERAGE] > 0.9) & (skin + inner > 0.9) & (_inside(crop.matrix, example.photo.shape))
-    weight = np.where(skin > 0.5, skin, _INTERIOR * inner) * known
-    return Lesson(*(np.asarray(part, np.float16) for part in (seen, normals, weight)))
-
-
-def _inside(matrix: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.bool_]:
-    """Pixels of the crop that lie within the photo."""
-    y, x = np.mgrid[:SIZE, :SIZE].astype(np.float64)
-    places = np.stack([x - matrix[0, 2], y - matrix[1, 2]], axis=-1) @ np.linalg.inv(matrix[:, :2]).T
-    inside: NDArray[np.bool_] = ((places >= 0) & (places <= np.array(shape[1::-1]) - 1)).all(axis=2)
-    return inside
-
-
 def _off(lesson: Lesson) -> float:
     """Mean angle between fitted and true normals on skin, degrees."""
     on = lesson.weight > 0.5
@@ -122,23 +46,3 @@ def _off(lesson: Lesson) -> float:
         return 180.0
     fitted, true = (part[on].astype(np.float32) for part in (lesson.seen[..., NORMALS:COVERAGE], lesson.normals))
     return float(np.degrees(np.arccos(np.clip((fitted * true).sum(axis=1), -1, 1))).mean())
-
-
-def _version(graph: Any, example: Example) -> str:
-    """Changes with the graph, the code of its operators and what makes the network's input of their results."""
-    photo = Image(example.photo.astype(np.float32))
-    request = graph.request(list(ASKED.values()), {"photo": photo})
-    keys = [request.key(request.graph.targets([output])[output].slot).hex()[:8] for output in ASKED.values()]
-    return "-".join([*keys, fingerprint(lesson_of).digest.hex()[:8]])
-
-
-def _write(lesson: Lesson, path: Path) -> None:
-    with beside(path) as unfinished:
-        np.savez(unfinished, seen=lesson.seen, normals=lesson.normals, weight=lesson.weight)
-
-
-def _read(path: Path) -> Lesson:
-    with np.load(path, allow_pickle=False) as file:
-        return Lesson(file["seen"], file["normals"], file["weight"])
-
-

@@ -58,7 +58,7 @@ def trainable(channels: int, widths: Sequence[int], outputs: int = 3) -> Any:
 
 
 def folded(state: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The weights in the form of `graphface.nodes.unet`: kernels (k, k, in, out), with batch normalization folded in."""
+    """The weights in the form of `graphface.nodes.unet`: kernels (k, k, in, out), batch normalization folded in."""
     arrays = {name: values.double().numpy() for name, values in state.items() if values.is_floating_point()}
     found: dict[str, np.ndarray] = {}
     for name, kernel in arrays.items():

@@ -2,5 +2,5 @@
 
 - `head_model` reads ICT-FaceKit's whole head; `noise`, `relief` and `skin` make one person of it;
 - `lights` and `film` choose how the picture is lit and taken, `scene` renders it with mitsuba;
-- `example` is one picture with its truth, `folder` fills a folder with them.
+- `picture` makes one, `example` is it with its truth and its file, `folder` fills a folder.
 """

@@ -21,7 +21,7 @@ def developed(radiance: FloatArray, on_face: NDArray[np.bool_], random: np.rando
 
     u = random.uniform
     face = radiance[on_face] if on_face.any() else radiance.reshape(-1, 3)
-    white = face.mean(axis=0) / np.maximum(face.mean(), 1e-6)
+    white = np.maximum(face.mean(axis=0) / max(float(face.mean()), 1e-6), 0.05)
     balance = np.exp(random.normal(size=3) * 0.05) / white ** u(0, 0.25)
     level = np.percentile(face @ _WEIGHTS, 80)
     linear = np.maximum(radiance * (balance * u(0.16, 0.75) / max(float(level), 1e-5)), 0).astype(np.float32)

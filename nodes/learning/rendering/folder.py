@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from graphface.nodes.learning.rendering.example import make_example, write_example
+from graphface.nodes.learning.rendering.example import write_example
 from graphface.nodes.learning.rendering.head_model import read_head
+from graphface.nodes.learning.rendering.picture import make_example
 from graphface.values.writing import make_folder
 
 

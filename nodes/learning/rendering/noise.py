@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,7 +33,7 @@ def noise(points: Values, random: np.random.Generator, scale: float, octaves: in
 def distance_to_line(points: Values, corners: Values) -> Values:
     """Distance of points (n, 2) from a polyline (k, 2): (n,)."""
     nearest = np.full(len(points), np.inf)
-    for a, b in zip(corners[:-1], corners[1:], strict=True):
+    for a, b in pairwise(corners):
         along = b - a
         share = np.clip((points - a) @ along / max(float(along @ along), 1e-12), 0, 1)
         nearest = np.minimum(nearest, np.hypot(*(points - a - share[:, None] * along).T))

@@ -82,20 +82,20 @@ def _lines(anchors: Values, random: np.random.Generator, age: float) -> list[tup
         add(np.stack([start, middle, end]), 0.13, u(0.14, 0.3))  # nasolabial fold
         if random.random() < age:
             below = flat[corner] + (side * 0.3, -0.3)
-            add(np.stack([below, below + (side * u(0, 0.3), -u(0.6, 1.6))]), 0.08, u(0.12, 0.25))
+            add(np.stack([below, _moved(below, side * u(0, 0.3), -u(0.6, 1.6))]), 0.08, u(0.12, 0.25))
         for _ in range(random.integers(0, 5)):  # crow's feet
             a = flat[outer] + (side * u(0.4, 0.7), u(-0.5, 0.5))
-            add(np.stack([a, a + (side * u(0.5, 1.2), u(-0.7, 0.5))]), 0.035, u(0.06, 0.11))
+            add(np.stack([a, _moved(a, side * u(0.5, 1.2), u(-0.7, 0.5))]), 0.035, u(0.06, 0.11))
         for k in range(random.integers(0, 3)):  # bags and lines under the eye
             drop = 0.55 + 0.3 * k + u(0, 0.2)
             a, b = flat[inner] + (0, -drop * 0.7), flat[outer] + (0, -drop)
             add(np.stack([a, (a + b) / 2 + (0, -0.3), b]), 0.06, u(0.09, 0.2))
         if random.random() < 0.6 * age:  # between the brows
             a = flat[21 if side < 0 else 22] + (-side * u(0.5, 0.9), u(-0.6, 0.1))
-            add(np.stack([a, a + (u(-0.15, 0.15), u(0.6, 1.3))]), 0.07, u(0.08, 0.15))
+            add(np.stack([a, _moved(a, u(-0.15, 0.15), u(0.6, 1.3))]), 0.07, u(0.08, 0.15))
         if random.random() < 0.4:  # cheek lines
             a = flat[corner] + (side * u(1.0, 2.2), u(-0.5, 1.5))
-            add(np.stack([a, a + (side * u(0, 0.5), -u(0.8, 2))]), 0.05, u(0.1, 0.2))
+            add(np.stack([a, _moved(a, side * u(0, 0.5), -u(0.8, 2))]), 0.05, u(0.1, 0.2))
     for k in range(random.integers(0, 6)):  # forehead
         y = 7.3 + k * u(0.6, 0.9)
         half = u(2, 4.5)
@@ -104,3 +104,7 @@ def _lines(anchors: Values, random: np.random.Generator, age: float) -> list[tup
     if random.random() < 0.4 * age:
         add([(-1.2, -5.2), (0, -4.95), (1.2, -5.2)], 0.08, u(0.12, 0.25))  # above the chin
     return lines
+
+
+def _moved(point: Values, right: float, up: float) -> Values:
+    return point + np.array([right, up])

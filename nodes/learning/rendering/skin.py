@@ -138,7 +138,9 @@ def _stubble(points: Values, color: Values, hair: Values, random: np.random.Gene
     """Stubble to a full beard, on a third of the heads."""
     if random.random() > 0.35:
         return color
-    edge = -0.9 + 0.4 * noise(points, random, 1.5) - points[:, 1] + 0.22 * np.maximum(np.abs(points[:, 0]) - 3, 0) ** 1.5
+    edge = (
+        -0.9 + 0.4 * noise(points, random, 1.5) - points[:, 1] + 0.22 * np.maximum(np.abs(points[:, 0]) - 3, 0) ** 1.5
+    )
     beard = ramp(edge, 0.35) * ramp(points[:, 1] + 10.0, 0.6) * ramp(points[:, 2] - 1.0, 0.8)
     lips = np.exp(-np.square((points - (0, -3.4, 11.2)) / (2.2, 0.75, 3)).sum(axis=1))
     grain = 1 + random.uniform(0, 0.5) * noise(points, random, 0.12)
@@ -158,9 +160,7 @@ def _scalp(points: Values, random: np.random.Generator) -> Values:
     return np.asarray(np.maximum(front, back) * (1 - ears))
 
 
-def _inside(
-    model: HeadModel, rest: Values, albedo: Values, roughness: Values, random: np.random.Generator
-) -> None:
+def _inside(model: HeadModel, rest: Values, albedo: Values, roughness: Values, random: np.random.Generator) -> None:
     """Eyes, teeth, gums and cavities, in place."""
     albedo[model.part == TEETH] = np.array([0.72, 0.68, 0.58]) * random.uniform(0.7, 1.05)
     albedo[model.part == GUMS] = (0.45, 0.15, 0.14)

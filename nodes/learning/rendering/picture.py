@@ -1,0 +1,178 @@
+"""A random person, photographed: an example."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphface.nodes.harmonics import rotation_matrix
+from graphface.nodes.learning.rendering.denoise import denoised
+from graphface.nodes.learning.rendering.example import BARE_SKIN, EYES_AND_TEETH, FORMAT, REST, Example
+from graphface.nodes.learning.rendering.film import developed
+from graphface.nodes.learning.rendering.head_model import EYE, SKIN, TEETH, HeadModel, normals_of
+from graphface.nodes.learning.rendering.lights import Lights, random_lights
+from graphface.nodes.learning.rendering.relief import relief
+from graphface.nodes.learning.rendering.scene import Body, View, path_traced
+from graphface.nodes.learning.rendering.skin import coat
+from graphface.nodes.rasterize import rasterized
+from graphface.nodes.render.depth_buffer import disc, visible_share
+from graphface.nodes.types import FloatArray, Mesh, Surface
+
+_SHADOW_POINTS, _SHADOW_TEXELS, _SHADOW_BIAS = 4, 400, 0.012
+"""Of the depth buffers behind `reaching`; the bias in inter-ocular distances."""
+
+
+def make_example(model: HeadModel, seed: int, *, size: int = 224, samples: int = 4) -> Example:
+    """The example of a seed: a random head, pose, light and camera.
+
+    Args:
+        size: pixels along a side. samples: paths through a pixel.
+
+    Raises:
+        UsageError: mitsuba is not installed.
+    """
+    random = np.random.default_rng(seed)
+    body, part, hair, landmarks, expression = _body(model, random)
+    body, landmarks, pose = _posed(body, landmarks, random)
+    view = _view(landmarks, random, size)
+    lights = random_lights(random)
+    wall = tuple(random.uniform(0.03, 0.75, 3) if random.random() < 0.3 else np.full(3, random.uniform(0.02, 0.8)))
+    noisy = path_traced(body, view, lights, wall, samples=samples, seed=seed % 2**31)
+
+    eyes = float(np.linalg.norm(landmarks[36] - landmarks[45]))
+    mesh = view.mesh(body.vertices, body.triangles, body.normals, eyes)
+    surface = rasterized(mesh, (size, size), smoothing=0.0)
+    labels = _labels(surface, mesh, part, hair)
+    reaching = _reaching(mesh, surface, view, lights)
+    albedo = _interpolated(body.albedo, surface, mesh)
+    radiance = denoised(noisy, albedo, surface.normals, reaching, surface.coverage > 0)
+    facts = {
+        "format": FORMAT,
+        "seed": seed,
+        "samples": samples,
+        "lights": lights.as_json(),
+        "pose": pose,
+        "expression": expression,
+        "focal": view.focal,
+        "distance": view.distance,
+        "interocular": mesh.interocular,
+    }
+    return Example(
+        photo=developed(radiance, labels == BARE_SKIN, random),
+        normals=np.round(surface.normals * 127).astype(np.int8),
+        depth=(surface.depth / mesh.interocular).astype(np.float16),
+        labels=labels,
+        reaching=reaching,
+        facts=facts,
+    )
+
+
+def _body(
+    model: HeadModel, random: np.random.Generator
+) -> tuple[Body, NDArray[np.int8], NDArray[np.float64], NDArray[np.float64], dict[str, float]]:
+    """A person with an expression; parts, share of hair (M,), landmarks (68, 3) and the expression's weights."""
+    u = random.uniform
+    weights = random.normal(size=len(model.identity)) * u(0.6, 1.15)
+    weights[40:] *= 0.5
+    person = model.mean + np.tensordot(weights.astype(np.float32), model.identity, 1)
+    expression = _expression(model.names, random) if u() < 0.7 else {}
+    moved = person.copy()
+    for name, weight in expression.items():
+        moved += weight * model.expression[model.names.index(name)]
+    rest, vertices = model.refinement @ model.mean, model.refinement @ moved
+    clothing = coat(model, rest, random)
+    height = clothing.thickness + (relief(model, rest, random) * (1 - clothing.hair) if u() < 0.9 else 0)
+    vertices = vertices + height[:, None] * normals_of(vertices, model.triangles)
+    normals = normals_of(vertices, model.triangles)
+    body = Body(vertices, normals, model.triangles, clothing.albedo, clothing.roughness, clothing.specular)
+    return body, model.part, clothing.hair, moved[model.landmarks], expression
+
+
+def _expression(names: tuple[str, ...], random: np.random.Generator) -> dict[str, float]:
+    """A few weights, most of them the same on both sides."""
+    weights: dict[str, float] = {}
+    for _ in range(random.integers(1, 5)):
+        name = str(random.choice(names))
+        weight = float(random.uniform(0.1, 0.9)) * (0.5 if name == "jawOpen" else 1.0)
+        weights[name] = weight
+        if name[-2:] in ("_L", "_R") and random.random() < 0.8:
+            weights[name[:-1] + ("R" if name.endswith("L") else "L")] = weight
+    return weights
+
+
+def _posed(
+    body: Body, landmarks: NDArray[np.float64], random: np.random.Generator
+) -> tuple[Body, NDArray[np.float64], dict[str, float]]:
+    yaw = float(np.clip(random.normal() * 17, -45, 45))
+    pitch, roll = float(np.clip(random.normal() * 8, -22, 22)), float(random.normal() * 6)
+    turn, middle = rotation_matrix(yaw, pitch, roll), landmarks.mean(axis=0)
+    moved = Body(
+        (body.vertices - middle) @ turn.T + middle,
+        body.normals @ turn.T,
+        body.triangles,
+        body.albedo,
+        body.roughness,
+        body.specular,
+    )
+    return moved, (landmarks - middle) @ turn.T + middle, {"yaw": yaw, "pitch": pitch, "roll": roll}
+
+
+def _view(landmarks: NDArray[np.float64], random: np.random.Generator, size: int) -> View:
+    """A camera that frames the face; far away with a long lens, or near as for a selfie."""
+    u = random.uniform
+    middle = landmarks.mean(axis=0)
+    height = float(np.linalg.norm(landmarks[8] - landmarks[27]))
+    angle = np.radians(u(9, 26))
+    distance = u(0.82, 1.08) * height / np.tan(angle / 2)
+    origin = middle + np.array([u(-1, 1), u(-2, 2), distance])
+    target = middle + np.array([u(-0.8, 0.8), u(0.04, 0.16) * height, 0])
+    back = (origin - target) / np.linalg.norm(origin - target)
+    right = np.cross([0, 1, 0], back)
+    right /= np.linalg.norm(right)
+    axes = np.stack([right, np.cross(back, right), back])
+    return View(origin, axes, size / 2 / float(np.tan(angle / 2)), size, float((origin - middle) @ back))
+
+
+def _interpolated(values: NDArray[np.float64], surface: Surface, mesh: Mesh) -> FloatArray:
+    """Values at vertices (M, 3) on the picture, 0 beyond the head."""
+    found = np.zeros((*surface.coverage.shape, values.shape[1]), np.float32)
+    covered = surface.coverage > 0
+    corners = mesh.triangles[surface.triangle[covered]]
+    found[covered] = (values[corners] * surface.barycentric[covered][..., None]).sum(axis=1)
+    return found
+
+
+def _labels(surface: Surface, mesh: Mesh, part: NDArray[np.int8], hair: NDArray[np.float64]) -> NDArray[np.uint8]:
+    corners = mesh.triangles[np.maximum(surface.triangle, 0)]
+    kinds = part[corners[..., 0]]
+    hairy = (hair[corners] * surface.barycentric).sum(axis=2)
+    labels = np.full(kinds.shape, REST, np.uint8)
+    labels[(kinds == SKIN) & (hairy < 0.5)] = BARE_SKIN
+    labels[(kinds == EYE) | (kinds == TEETH)] = EYES_AND_TEETH
+    labels[surface.triangle < 0] = REST
+    return labels
+
+
+def _reaching(mesh: Mesh, surface: Surface, view: View, lights: Lights) -> NDArray[np.uint8]:
+    """255 times the share of the first lamp that reaches each pixel, by depth buffers of the true head."""
+    shape = surface.coverage.shape
+    reaching = np.zeros(shape, np.uint8)
+    covered = surface.coverage > 0
+    lamp, unit = lights.lamps[0], mesh.interocular
+    middle = view.origin - view.axes[2] * view.distance
+    towards = view.axes @ np.asarray(lamp.direction)
+    place = view.seen((middle + np.asarray(lamp.direction) * lamp.distance)[None])[0] / unit
+    spread = disc(towards.astype(np.float32), lamp.half_size * view.pixels_per_unit / unit * 1.13, _SHADOW_POINTS)
+    corners = mesh.triangles[surface.triangle[covered]]
+    points: FloatArray = (mesh.vertices[corners] * surface.barycentric[covered][..., None]).sum(axis=1) / unit
+    share = visible_share(
+        np.ascontiguousarray(points, np.float32),
+        surface.normals[covered],
+        (place + spread).astype(np.float32),
+        (mesh.vertices / np.float32(unit)).astype(np.float32),
+        mesh.triangles,
+        resolution=_SHADOW_TEXELS,
+        bias=_SHADOW_BIAS,
+    )
+    reaching[covered] = np.round(share * 255)
+    return reaching

@@ -1,0 +1,135 @@
+"""Normals refined from the picture."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from portraits import landmarks_at, portrait, surface_of
+
+from graphface.nodes.harmonics import ambient
+from graphface.nodes.surface.normal_network import (
+    CHANNELS,
+    COLORS,
+    NETWORK,
+    NormalWeights,
+    corrections,
+    mirror,
+    shipped_weights,
+    unshuffled,
+)
+from graphface.nodes.surface.refined import refined
+from graphface.nodes.types import Image, Lighting
+from graphface.testing import check_node
+
+LIGHT = Lighting(np.float32([2.0, 0.3, 0.8, -0.4]))
+
+
+def case(side=160, **more):
+    photo, landmarks, _ = portrait(side, **more)
+    surface = surface_of(landmarks, (side, side))
+    return surface, photo, landmarks, surface.coverage, LIGHT
+
+
+class TestRefined:
+    def test_unit_normals_on_the_same_surface(self):
+        """Normals change on the face and stay of unit length; the rest of the surface is what it was."""
+        before, *others = case()
+        after = refined(before, *others)
+        on = before.coverage > 0
+        np.testing.assert_allclose(np.linalg.norm(after.normals[on], axis=1), 1, atol=1e-4)
+        assert not after.normals[~on].any()
+        assert np.abs(after.normals - before.normals).max() > 1e-3
+        assert after.coverage is before.coverage
+        assert after.depth is before.depth
+
+    def test_strength(self):
+        """Without strength nothing is changed; with half of it about half."""
+        before, *others = case()
+        assert refined(before, *others, strength=0.0) is before
+        half, whole = (refined(before, *others, strength=s).normals - before.normals for s in (0.5, 1.0))
+        assert np.linalg.norm(half) == pytest.approx(np.linalg.norm(whole) / 2, rel=0.1)
+
+    def test_fine_part(self):
+        """The finer the part that is taken, the smaller the change."""
+        before, *others = case()
+        sizes = [np.abs(refined(before, *others, finer_than=s).normals - before.normals).mean() for s in (0.03, 0.12)]
+        assert sizes[0] < sizes[1]
+
+    def test_size_of_the_photo_matters_little(self):
+        """Twice the pixels, the same normals."""
+        small, large = (refined(*case(side, noise=0)).normals for side in (160, 320))
+        again = large.reshape(160, 2, 160, 2, 3).mean(axis=(1, 3))
+        assert np.abs(again - small)[60:100, 60:100].mean() < 0.03
+
+    def test_noise_of_one_level(self):
+        """Noise of one 8-bit level hardly changes the normals."""
+        surface, photo, *others = case()
+        noise = np.random.default_rng(1).integers(-1, 2, photo.pixels.shape) / 255
+        before = refined(surface, photo, *others).normals
+        after = refined(surface, photo.with_pixels(photo.pixels + noise), *others).normals
+        assert np.abs(after - before).mean() < 0.005
+
+    @pytest.mark.parametrize("value", [0.0, 1.0, 0.4, np.nan, np.inf, -3.0, 1e30])
+    def test_flat_pictures(self, value):
+        """Black, white and impossible pictures give unit normals."""
+        surface, photo, *others = case(80)
+        found = refined(surface, photo.with_pixels(np.full_like(photo.pixels, value)), *others).normals
+        np.testing.assert_allclose(np.linalg.norm(found[surface.coverage > 0], axis=1), 1, atol=1e-4)
+
+    @pytest.mark.parametrize("coefficients", [[0, 0, 0, 0], [-1, 0, 0, 0], [1e6, 0, 1e6, 0], [1e-9, 1, 0, 0]])
+    def test_odd_lights(self, coefficients):
+        """No light, a negative one and a huge one give finite normals."""
+        *others, _ = case(80)
+        assert np.isfinite(refined(*others, Lighting(np.float32(coefficients))).normals).all()
+
+    def test_colored_light(self):
+        """A light per channel is taken as its mean."""
+        *others, _ = case(80)
+        grey, colored = LIGHT, Lighting(np.repeat(LIGHT.coefficients[:, None], 3, axis=1))
+        np.testing.assert_allclose(refined(*others, grey).normals, refined(*others, colored).normals, atol=1e-5)
+
+    @pytest.mark.filterwarnings("ignore::graphface.GraphfaceWarning")
+    @settings(deadline=None, max_examples=15)
+    @given(st.integers(1, 60), st.integers(1, 60), st.floats(-90, 90), st.floats(0.01, 500), st.floats(-3.1, 3.1))
+    def test_any_place(self, height, width, x, interocular, roll):
+        """A photo of a pixel, a face cut by the frame, a speck or huge: finite normals."""
+        photo = Image(np.random.default_rng(0).uniform(0, 1, (height, width, 3)).astype(np.float32))
+        landmarks = landmarks_at(x, 20, interocular, roll)
+        surface = surface_of(landmarks, (height, width))
+        found = refined(surface, photo, landmarks, surface.coverage, ambient(0.5, 1))
+        assert np.isfinite(found.normals).all()
+
+    def test_no_face(self):
+        """A surface that is nowhere keeps its normals, with a warning."""
+        _, photo, *others = case(60)
+        landmarks = landmarks_at(900, 900, 20)
+        nowhere = surface_of(landmarks, (60, 60))
+        with pytest.warns(match="no face"):
+            assert refined(nowhere, photo, landmarks, *others[1:]) is nowhere
+
+    def test_is_a_node(self):
+        """It is pure, deterministic and survives NaN."""
+        check_node(refined, *case(60))
+
+
+class TestCorrections:
+    def test_the_mirrored_face_has_the_mirrored_correction(self, rng):
+        """Averaged with the mirrored picture, both sides are treated alike."""
+        seen = rng.normal(size=(128, 128, CHANNELS)).astype(np.float32) * np.float32(0.3)
+        found, other = (corrections(s, shipped_weights(), True) for s in (seen, mirror(seen)))
+        np.testing.assert_allclose(other[:, ::-1] * (-1, 1, 1), found, atol=1e-4)
+
+    def test_weights_of_the_users_own(self):
+        """A network of zero weights changes nothing."""
+        before, *others = case(80)
+        zeros = NormalWeights({name: np.zeros_like(values) for name, values in shipped_weights().items()})
+        np.testing.assert_allclose(refined(before, *others, zeros).normals, before.normals, atol=1e-5)
+
+    def test_channels(self):
+        """The four pixels of a cell stand together, channel by channel."""
+        values = np.arange(4 * 4 * CHANNELS, dtype=np.float32).reshape(4, 4, CHANNELS)
+        cells = unshuffled(values)
+        assert cells.shape[2] == NETWORK.channels
+        np.testing.assert_array_equal(cells[0, 0, :4], values[:2, :2, COLORS].ravel())
