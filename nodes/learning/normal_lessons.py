@@ -43,7 +43,8 @@ class Lesson:
 def lessons_of(folder: Path) -> Iterator[Lesson]:
     """The lesson of each example in which the graph finds a face.
 
-    Lessons are kept in `folder`/seen, and made again when the graph or the code of its operators has changed.
+    Lessons are kept in `folder`/seen, with the reason as a text where there is none. They are made
+    again when the graph or the code of its operators has changed.
 
     Raises:
         UnreadableFile: there are no examples.
@@ -58,13 +59,14 @@ def lessons_of(folder: Path) -> Iterator[Lesson]:
     make_folder(kept)
     for path in track(paths, description="examples", disable=not sys.stderr.isatty()):
         own = kept / path.name
-        if not own.exists():
+        without = own.with_suffix(".txt")
+        if not own.exists() and not without.exists():
             try:
                 _write(lesson_of(read_example(path), graph), own)
             except GraphfaceError as error:
-                print(f"{path.name} is left out: {str(error).splitlines()[0]}", flush=True)
-                continue
-        yield _read(own)
+                without.write_text(f"{error}\n", encoding="utf-8")
+        if own.exists():
+            yield _read(own)
 
 
 def lesson_of(example: Example, graph: Graph) -> Lesson:

@@ -67,14 +67,15 @@ def network_input(crop: FaceCrop, photo: Image, surface: Surface, mask: Mask, li
     covered = crop.sampled(surface.coverage)
     normals = crop.turned(crop.sampled(surface.normals))
     length = np.sqrt(np.square(normals).sum(axis=2, keepdims=True))
-    normals = normals / np.maximum(length, 1e-3) * (covered[..., None] > _LEAST_COVERED)
+    on = covered[..., None] > _LEAST_COVERED
+    normals = np.asarray(normals / np.maximum(length, 1e-3) * on, np.float32)
     shading = _shading(crop.turned(normals, back=True), light)
     total = max(float(weight.sum()), 1.0)
     brightness = max(float((pixels.mean(axis=2) * weight).sum()) / total, 1e-2)
     mean = max(float((shading * weight).sum()) / total, 1e-2)
     axes = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]], np.float32)
     seen = np.clip(_of_light(axes, light) / mean, -_BRIGHTEST, _BRIGHTEST)
-    towards = crop.turned(np.array([seen[0] - seen[1], seen[2] - seen[3], seen[4]], np.float32) / 2)
+    towards = crop.turned(np.array([(seen[0] - seen[1]) / 2, (seen[2] - seen[3]) / 2, seen[4] / 2], np.float32))
     place = np.mgrid[:SIZE, :SIZE].astype(np.float32)[::-1] / SIZE - 0.5
     channels = [
         np.clip(pixels / brightness, 0, _BRIGHTEST) - 1,
@@ -92,8 +93,8 @@ def corrections(seen: FloatArray, weights: Weights, mirrored: bool) -> FloatArra
     """What is to be added to the crop's normals, float32 SIZE x SIZE x 3, in the crop's axes."""
     found = unet(unshuffled(seen), weights, len(WIDTHS))
     if mirrored:
-        other = unet(unshuffled(mirror(seen)), weights, len(WIDTHS))[:, ::-1] * np.float32([-1, 1, 1])
-        found = np.float32(0.5) * (found + other)
+        other = unet(unshuffled(mirror(seen)), weights, len(WIDTHS))[:, ::-1] * np.array([-1, 1, 1], np.float32)
+        found = np.asarray((found + other) * np.float32(0.5), np.float32)
     return found
 
 
@@ -122,7 +123,7 @@ def _pixels(crop: FaceCrop, photo: Image) -> FloatArray:
 def _shading(normals: FloatArray, light: Lighting) -> FloatArray:
     """What the light makes of normals, one value a pixel; 0 where there is none."""
     values = _of_light(normals.reshape(-1, 3), light).reshape(normals.shape[:2])
-    return np.maximum(values, 0) * (normals != 0).any(axis=2)
+    return np.asarray(np.maximum(values, 0) * (normals != 0).any(axis=2), np.float32)
 
 
 def _of_light(normals: FloatArray, light: Lighting) -> FloatArray:

@@ -40,6 +40,6 @@ def denoised(
     inside = cv2.erode(covered.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(np.float32)
     head = np.where(inside[..., None] > 0, smooth, light) * (albedo + np.float32(_SHEEN))
     behind = 1 - covered.astype(np.float32)
-    blurred = cv2.GaussianBlur(radiance * behind[..., None], (0, 0), 2.5)
-    blurred /= np.maximum(cv2.GaussianBlur(behind, (0, 0), 2.5), 1e-3)[..., None]
+    shares = np.maximum(cv2.GaussianBlur(behind, (0, 0), 2.5), 1e-3)[..., None]
+    blurred = cv2.GaussianBlur(radiance * behind[..., None], (0, 0), 2.5) / shares
     return np.asarray(np.where(covered[..., None], np.maximum(head, 0), blurred), np.float32)

@@ -69,9 +69,9 @@ def read_example(path: Path) -> Example:
     try:
         with np.load(path, allow_pickle=False) as file:
             facts = json.loads(str(file["facts"]))
-            arrays = [file[name] for name in names]
+            arrays = {name: file[name] for name in names}
     except (OSError, ValueError, EOFError, KeyError) as error:
         raise UnreadableFile(path, f"not an example of `graphface models render`: {error}") from error
     if facts.get("format") != FORMAT:
         raise UnreadableFile(path, f"its format is not {FORMAT!r}")
-    return Example(*arrays, facts)
+    return Example(**arrays, facts=facts)

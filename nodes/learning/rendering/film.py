@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from graphface.nodes.color import encode_srgb
 from graphface.nodes.types import FloatArray
 
-_WEIGHTS = np.float32([0.2126, 0.7152, 0.0722])
+_WEIGHTS = np.array([0.2126, 0.7152, 0.0722], np.float32)
 
 
 def developed(radiance: FloatArray, on_face: NDArray[np.bool_], random: np.random.Generator) -> NDArray[np.uint8]:
@@ -27,20 +27,21 @@ def developed(radiance: FloatArray, on_face: NDArray[np.bool_], random: np.rando
     linear = np.maximum(radiance * (balance * u(0.16, 0.75) / max(float(level), 1e-5)), 0).astype(np.float32)
     pixels = np.asarray(_toned(linear, random), np.float32)
     grey = (pixels @ _WEIGHTS)[..., None]
-    pixels = grey + (pixels - grey) * u(0.75, 1.3)
+    pixels = np.asarray(grey + (pixels - grey) * u(0.75, 1.3), np.float32)
     if u() < 0.4:  # sharpened by the camera
-        pixels = pixels + u(0.2, 1.0) * (pixels - cv2.GaussianBlur(pixels, (0, 0), u(0.7, 1.5)))
+        blurred = cv2.GaussianBlur(pixels, (0, 0), u(0.7, 1.5))
+        pixels = np.asarray(pixels + u(0.2, 1.0) * (pixels - blurred), np.float32)
     elif u() < 0.4:
-        pixels = cv2.GaussianBlur(pixels, (0, 0), u(0.3, 0.9))
+        pixels = np.asarray(cv2.GaussianBlur(pixels, (0, 0), u(0.3, 0.9)), np.float32)
     shot = random.normal(size=pixels.shape).astype(np.float32)
     if u() < 0.5:  # noise after a camera's own filter is coarse, and mostly in color
-        shot = cv2.GaussianBlur(shot, (0, 0), 0.7) * 1.8
-    pixels = pixels + shot * u(0, 0.018) * np.sqrt(np.clip(pixels, 0.05, 1))
-    stored = np.round(np.clip(pixels, 0, 1) * 255).astype(np.uint8)
+        shot = np.asarray(cv2.GaussianBlur(shot, (0, 0), 0.7) * 1.8, np.float32)
+    noisy = pixels + shot * u(0, 0.018) * np.sqrt(np.clip(pixels, 0.05, 1))
+    stored = np.round(np.clip(noisy, 0, 1) * 255).astype(np.uint8)
     if u() < 0.75:
         quality = [cv2.IMWRITE_JPEG_QUALITY, int(u(45, 97))]
         coded = cv2.imencode(".jpg", stored[..., ::-1], quality)[1]
-        stored = np.ascontiguousarray(cv2.imdecode(coded, cv2.IMREAD_COLOR)[..., ::-1])
+        stored = np.asarray(cv2.imdecode(coded, cv2.IMREAD_COLOR), np.uint8)[..., ::-1].copy()
     return stored
 
 

@@ -114,7 +114,7 @@ def _kinds_of_edges(rows: Any, part: NDArray[np.int8]) -> NDArray[np.int8]:
     dense = rows.tocoo()
     shares = np.zeros((rows.shape[0], CAVITY + 1))
     np.add.at(shares, (dense.coords[0], np.maximum(part[dense.coords[1]], 0)), dense.data)
-    return np.argmax(shares, axis=1).astype(np.int8)
+    return np.asarray(np.argmax(shares, axis=1), np.int8)
 
 
 def normals_of(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:

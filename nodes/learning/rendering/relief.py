@@ -107,4 +107,4 @@ def _lines(anchors: Values, random: np.random.Generator, age: float) -> list[tup
 
 
 def _moved(point: Values, right: float, up: float) -> Values:
-    return point + np.array([right, up])
+    return np.asarray(point + (right, up))  # noqa: RUF005

@@ -145,7 +145,7 @@ def _stubble(points: Values, color: Values, hair: Values, random: np.random.Gene
     lips = np.exp(-np.square((points - (0, -3.4, 11.2)) / (2.2, 0.75, 3)).sum(axis=1))
     grain = 1 + random.uniform(0, 0.5) * noise(points, random, 0.12)
     cover = np.clip(random.uniform(0.1, 0.85) * beard * (1 - np.clip(1.6 * lips, 0, 1)) * grain, 0, 0.95)[:, None]
-    return color * (1 - cover) + cover * hair
+    return np.asarray(color * (1 - cover) + cover * hair)
 
 
 def _scalp(points: Values, random: np.random.Generator) -> Values:
