@@ -89,7 +89,8 @@ def shadow_color(
         share = _darkness(brightness, usual, threshold) * is_face
         adapted = own * (1 + excess * in_three_channels(share))
         adapted = _less_saturated(adapted, limit, share)
-        adapted *= in_three_channels(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)))
+        brighter = np.asarray(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)), np.float32)
+        adapted *= in_three_channels(brighter)
         share = _darkness(brightness, usual, black) * is_face * bare
         result[place] = adapted + in_three_channels(share) * (in_three_channels(grey) * lit - adapted)
 

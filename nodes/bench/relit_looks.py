@@ -101,9 +101,7 @@ def _far_over_near(image: Image, landmarks: Landmarks, scene: Scene) -> float:
     from_left, from_right = sides.reshape(2, -1).mean(axis=1)
     if abs(from_left - from_right) < 0.1 * max(from_left, from_right, 1e-6):
         return float("nan")
-    left, right = (
-        _light_at(image, landmarks, point) for point in sorted(CHEEKS, key=lambda p: landmarks.points[p, 0])
-    )
+    left, right = (_light_at(image, landmarks, point) for point in sorted(CHEEKS, key=lambda p: landmarks.points[p, 0]))
     near, far = (left, right) if from_left > from_right else (right, left)
     return far / max(near, 1e-4)
 
@@ -119,6 +117,7 @@ def _light_at(image: Image, landmarks: Landmarks, point: int) -> float:
 
 def _shadow(session: Session, scene: Scene) -> FloatArray:
     """The share of the scene's light that shadows leave, H x W: shading with them over shading without them."""
+
     def shade(**changes: Any) -> FloatArray:
         session.edit(scene=scene.model_copy(update={"keep_mean": False, **changes}))
         shading: FloatArray = session.render(["shade"])["shade"]

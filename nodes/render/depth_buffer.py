@@ -106,7 +106,7 @@ def _share(maps: list[_ShadowMap], points: FloatArray, normals: FloatArray, bias
         height = np.maximum(bias.take(facing), np.float32(_BIAS_TEXELS * map_.texel))
         cosine = cosine.take(facing)
         raised = points.take(facing, axis=0) + normals.take(facing, axis=0) * height[:, None]
-        received[facing] += cosine * map_.visibility(raised, height / 2)
+        received[facing] += cosine * map_.visibility(raised, np.asarray(height / 2, np.float32))
         possible[facing] += cosine
     return np.asarray((received + np.float32(1e-6)) / possible, np.float32)
 

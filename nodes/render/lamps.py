@@ -67,14 +67,15 @@ def lamps(
         return nothing
     spots = (copy.down(blown_out.astype(np.float32)) > 0.5).astype(np.uint8)
     intensity, wall = copy.down(channel_mean(photo.pixels)), copy.down(background)
-    count, numbers, boxes, middles = cv2.connectedComponentsWithStats(spots)
-    areas = boxes[:, cv2.CC_STAT_AREA]
+    count, found, boxes, middles = cv2.connectedComponentsWithStats(spots)
+    numbers, extents = np.asarray(found, np.int32), np.asarray(boxes, np.int32)
+    areas = extents[:, cv2.CC_STAT_AREA]
     small = np.flatnonzero(areas <= max(largest * copy.interocular**2, 1))
-    small = small[(small > 0) & ~_on_body(middles[small] / copy.scale, landmarks)]
+    small = small[(small > 0) & ~_on_body(np.asarray(middles[small], np.float64) / copy.scale, landmarks)]
     candidates = small[np.argsort(-areas[small], kind="stable")][:_MOST]
     kept = np.zeros(count, np.float32)
     for number in candidates:
-        kept[number] = _stands_out(numbers, number, boxes[number, :4], spots, wall, intensity, contrast)
+        kept[number] = _stands_out(numbers, number, extents[number, :4], spots, wall, intensity, contrast)
     if not kept.any():
         return nothing
     width = glow * copy.interocular

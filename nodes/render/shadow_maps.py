@@ -51,7 +51,9 @@ def shadow_maps(
     """
     unit = max(mesh.interocular, 1e-3)
     vertices = np.ascontiguousarray(mesh.vertices / np.float32(unit), np.float32)
-    heights = bias + max(rim_bias - bias, 0) * _nearness(receivers, rim * receivers.grid[1] / receivers.picture[1] * unit)
+    heights = bias + max(rim_bias - bias, 0) * _nearness(
+        receivers, rim * receivers.grid[1] / receivers.picture[1] * unit
+    )
     maps = {}
     for index, light in scene.casting.items():
         shares = np.ones(len(receivers.points), np.float32)
@@ -79,7 +81,7 @@ def _nearness(receivers: Samples, reach: float) -> FloatArray:
     face.reshape(-1)[receivers.cells] = receivers.weights > 0
     if reach <= 0 or not face.any() or face.all():
         return np.zeros(len(receivers.cells), np.float32)
-    distance = sum(cv2.distanceTransform(part, cv2.DIST_L2, 3) for part in (face, 1 - face))
+    distance = cv2.distanceTransform(face, cv2.DIST_L2, 3) + cv2.distanceTransform(1 - face, cv2.DIST_L2, 3)
     return np.asarray(np.clip(1 - distance.reshape(-1)[receivers.cells] / np.float32(reach), 0, 1), np.float32)
 
 

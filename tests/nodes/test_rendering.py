@@ -87,8 +87,9 @@ class TestRendering:
 
 class TestAddedLight:
     @staticmethod
-    def lit(light, encoded=np.float32([0.10, 0.04, 0.08])):
+    def lit(light, color=(0.10, 0.04, 0.08)):
         """A dark purple pixel whose albedo is grey, under `light` times its own light."""
+        encoded = np.float32(color)
         photo = Image(encoded[None, None])
         albedo = np.ones((1, 1, 3), np.float32)
         own = np.full((1, 1), encoded.mean(), np.float32)
@@ -111,4 +112,4 @@ class TestAddedLight:
 
     def test_black_stays_finite(self):
         """Where the photo has nothing there is no color to fade."""
-        assert np.isfinite(self.lit(3, np.zeros(3, np.float32))).all()
+        assert np.isfinite(self.lit(3, (0, 0, 0))).all()

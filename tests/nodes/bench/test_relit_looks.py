@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from graphface import load
+from graphface import UsageError, load
 from graphface.nodes.bench.relit_looks import relit_looks
 from graphface.nodes.bench.shipped import scene_file
 from graphface.nodes.io.image_read import read_image
@@ -72,5 +72,5 @@ class TestSceneFile:
 
     def test_neither(self):
         """The nearest name is offered."""
-        with pytest.raises(Exception, match="candel.*candle"):
+        with pytest.raises(UsageError, match=r"candel.*candle"):
             scene_file("candel")
