@@ -51,6 +51,8 @@ VARIANTS = (
     Variant("hard shadows", shadow="hard"),
     Variant("no head behind the face", set={"face/head.solids": False}),
     Variant("light by plain least squares", set={"face/light.robust": "none"}),
+    Variant("light by Huber's fit", set={"face/light.robust": "huber"}),
+    Variant("shading not below 0.15", set={"face/intrinsic.floor": 0.15}),
     Variant("second-order SH", set={"face/light.order": 2}),
     Variant("scatter.gaussian 0.03", replace={"scatter": "scatter.gaussian"}, scene={"scatter": 0.03}),
     Variant("scatter.screen_space 0.03", scene={"scatter": 0.03}),

@@ -6,8 +6,8 @@ scale-invariant PSNR in dB on path-traced heads, scale-invariant squared error o
 
     source -> target                          additive    ratio     this
     frontal -> six lights                        28.27    28.86    28.89
-    left45 -> six lights (--source left45)       25.81    24.62    26.34
-    frontal -> eight lights (--truth yale)      0.0137   0.0119   0.0116
+    left45 -> six lights (--source left45)       25.77    24.62    26.31
+    frontal -> eight lights (--truth yale)      0.0109   0.0108   0.0104
 
 Where light is taken away the whole pixel loses it, highlights included, and a difference would leave them glowing: the
 ratio is better. Where light is added the ratio multiplies darkness of unknown cause by unbounded factors ("odd-looking
