@@ -110,6 +110,13 @@ class TestAddedLight:
         np.testing.assert_allclose(self.lit(1), [0.10, 0.04, 0.08], atol=1e-6)
         np.testing.assert_allclose(self.lit(1.001), self.lit(1), atol=1e-3)
 
+    def test_a_black_rendering_fades_nothing(self):
+        """Where the estimated light leaves nothing, the photo's pixel stays in the picture."""
+        photo = Image(np.float32([[[0.10, 0.04, 0.08]]]))
+        detail = split(photo, np.ones((1, 1, 3), np.float32), np.zeros((1, 1), np.float32))
+        found = recombined(photo, np.ones((1, 1, 3), np.float32), np.float32([[0.2]]), detail).pixels[0, 0]
+        np.testing.assert_allclose(found, np.float32([0.30, 0.24, 0.28]), atol=1e-3)
+
     def test_black_stays_finite(self):
         """Where the photo has nothing there is no color to fade."""
         assert np.isfinite(self.lit(3, (0, 0, 0))).all()
