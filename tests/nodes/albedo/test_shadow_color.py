@@ -85,6 +85,11 @@ class TestShadowColor:
         albedo, shading, _ = spotted(light, color)
         np.testing.assert_allclose(tamed(albedo, shading), albedo, atol=0.02)
 
+    def test_may_be_switched_off(self):
+        """With both thresholds near 0 nothing counts as dark: the ablations do so."""
+        albedo, shading, _ = spotted()
+        np.testing.assert_allclose(tamed(albedo, shading, threshold=0.001, black=0.001), albedo, rtol=1e-5)
+
     def test_sets_in_gradually(self):
         """No edge where a spot is a little darker than another."""
         steps = []
