@@ -19,8 +19,8 @@ _LEAST_HEADROOM = 1e-6
 """Headroom that every value has at least, because it is divided by."""
 
 
-_LEAST_BRIGHTNESS = np.float32(1e-3)
-"""Of a rendering, because it is divided by."""
+_LEAST_BRIGHTNESS = np.float32(5e-3)
+"""Of a rendering whose color is looked at, because it is divided by."""
 
 
 _SPARSE = 8
@@ -84,12 +84,14 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     if pivot is None or gain is None or not added.any():
         return
     before = channel_mean(pivot)
+    known = np.clip(before / _LEAST_BRIGHTNESS - 1, 0, 1)  # a black rendering says nothing of the albedo's color
     np.maximum(before, _LEAST_BRIGHTNESS, out=before)
     after = channel_mean(added)
     after += before
     fading = before / after
     fading *= fading * fading
     np.subtract(1, fading, out=fading)
+    fading *= known
     photo = gain * pivot
     photo += detail.offset
     # photo - pivot * |photo| / |pivot|, times the part that fades

@@ -69,9 +69,9 @@ def shadow_color(
     copy = face_scale(landmarks, albedo.shape, resolution)
     small, skin = copy.down(photo.pixels), copy.down(mask)
     bare = 1 - _eyes_and_lips(landmarks, copy)
-    own_face = np.ones_like(skin) if face is None else copy.down(face)
-    usual, limit, lit = _lit_skin(small, skin * own_face * bare + _LEAST, max(sigma * copy.interocular, 0.5))
-    dark = _darkness(channel_mean(small), usual, threshold) * own_face * bare
+    on_face = np.ones_like(skin) if face is None else copy.down(face)
+    usual, limit, lit = _lit_skin(small, skin * on_face * bare + _LEAST, max(sigma * copy.interocular, 0.5))
+    dark = _darkness(channel_mean(small), usual, threshold) * on_face * bare
     excess = copy.up((_adaptation(small, lit, dark, copy) - 1) * in_three_channels(bare))
     maps = [copy.up(values) for values in (usual, limit, bare, lit, excess)]
     window = None if face is None else bounding_box(face)
@@ -89,7 +89,8 @@ def shadow_color(
         share = _darkness(brightness, usual, threshold) * is_face
         adapted = own * (1 + excess * in_three_channels(share))
         adapted = _less_saturated(adapted, limit, share)
-        adapted *= in_three_channels(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)))
+        brighter = np.asarray(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)), np.float32)
+        adapted *= in_three_channels(brighter)
         share = _darkness(brightness, usual, black) * is_face * bare
         result[place] = adapted + in_three_channels(share) * (in_three_channels(grey) * lit - adapted)
 

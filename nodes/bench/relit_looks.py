@@ -17,26 +17,34 @@ import numpy as np
 
 from graphface import Graph, GraphfaceError, read_yaml, warn
 from graphface.evaluate.session import Session
-from graphface.nodes.bench.metered import MeteredEvaluator
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean, decode_srgb
+from graphface.nodes.image.resize import resize
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_image, write_picture
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.types import FloatArray, Image, Landmarks, Scene, Segmentation
-from graphface.nodes.types.image import image_from_array
 from graphface.values.writing import beside, make_folder
 
-CHEEKS = (50, 280)
-"""FaceMesh points in the middle of the cheeks, the picture's left and right one of a face that looks at the camera."""
+_CHEEKS = (50, 280)
+"""FaceMesh points in the middle of the cheeks."""
 
-FOREHEAD = (10, 338, 109, 297, 67, 332, 103)
+_FOREHEAD = (10, 338, 109, 297, 67, 332, 103)
 """FaceMesh points along the top of the face mesh, the middle one first."""
 
 _BRIDGE = 168
 """FaceMesh point between the eyes; up is from here to the top."""
 
 _CHEEK_RADIUS = 0.12
+"""Inter-ocular distances, as are the ends and the step of the lines across the forehead."""
+
+_LINE = np.arange(-0.3, 0.4, 0.01)
+_LEAST_LINE, _LEAST_SIDE = 45, 8
+"""Samples of a line that the picture must hold, and samples on each side of a dip."""
+
+_SKIN = 0.7
+"""Least label of face at a dip: hair hides what would be seen."""
+
 _LEAST_LIGHT = 0.02
 
 
@@ -65,12 +73,12 @@ def relit_looks(
     Args:
         graph: a relight graph.
         out: folder for the cases.
-        long_side: larger photos are scaled down to this many pixels; 0 keeps their size.
+        long_side: larger photos are scaled down to this many pixels.
     """
     lights = {path.stem: read_yaml(path, Scene) for path in scenes}
     for file in photos:
         try:
-            session = Session(graph, {"photo": _scaled(read_image(file), long_side)}, evaluator=MeteredEvaluator())
+            session = Session(graph, {"photo": resize(read_image(file), long_side=long_side)})
             for name, scene in lights.items():
                 yield _look(session, file.stem, name, scene, out / name / file.stem)
         except GraphfaceError as problem:
@@ -82,7 +90,7 @@ def _look(session: Session, photo: str, name: str, scene: Scene, folder: Path) -
     found = session.render(["image", "photo", "face.landmarks", "face.labels"])
     _write_case(folder, found["photo"], found["image"], found["face.landmarks"], found["face.labels"])
     landmarks = found["face.landmarks"]
-    rim = _rim_dip(_shadow(session, scene), landmarks, found["face.labels"].face) if scene.casting else np.nan
+    rim = rim_dip(_shadow(session, scene), landmarks, found["face.labels"].face) if scene.casting else np.nan
     return Look(photo, name, _far_over_near(found["image"], landmarks, scene), rim)
 
 
@@ -97,12 +105,13 @@ def _write_case(folder: Path, photo: Image, result: Image, landmarks: Landmarks,
 
 
 def _far_over_near(image: Image, landmarks: Landmarks, scene: Scene) -> float:
+    """See `Look.cheeks`."""
     sides = irradiance(scene, np.array([[-1, 0, 0], [1, 0, 0]], np.float32))
     from_left, from_right = sides.reshape(2, -1).mean(axis=1)
     if abs(from_left - from_right) < 0.1 * max(from_left, from_right, 1e-6):
         return float("nan")
     left, right = (
-        _light_at(image, landmarks, point) for point in sorted(CHEEKS, key=lambda p: landmarks.points[p, 0])
+        _light_at(image, landmarks, point) for point in sorted(_CHEEKS, key=lambda p: landmarks.points[p, 0])
     )
     near, far = (left, right) if from_left > from_right else (right, left)
     return far / max(near, 1e-4)
@@ -119,6 +128,7 @@ def _light_at(image: Image, landmarks: Landmarks, point: int) -> float:
 
 def _shadow(session: Session, scene: Scene) -> FloatArray:
     """The share of the scene's light that shadows leave, H x W: shading with them over shading without them."""
+
     def shade(**changes: Any) -> FloatArray:
         session.edit(scene=scene.model_copy(update={"keep_mean": False, **changes}))
         shading: FloatArray = session.render(["shade"])["shade"]
@@ -131,34 +141,32 @@ def _shadow(session: Session, scene: Scene) -> FloatArray:
     return (shade() + _LEAST_LIGHT) / (shade(lights=unshadowed) + _LEAST_LIGHT)
 
 
-def _rim_dip(shadow: FloatArray, landmarks: Landmarks, face: FloatArray) -> float:
-    """See `Look.rim`. Only where the label is face: hair hides what would be seen."""
-    unit = landmarks.interocular
-    smooth = blurred(shadow, max(0.01 * unit, 0.5))
-    up = landmarks.points[FOREHEAD[0], :2] - landmarks.points[_BRIDGE, :2]
+def rim_dip(shadow: FloatArray, landmarks: Landmarks, face: FloatArray) -> float:
+    """The deepest dip of a shadow along lines across the upper edge of the face mesh; see `Look.rim`.
+
+    Args:
+        shadow: the share of the light that is left, H x W.
+        face: the label, H x W; dips count only on skin.
+    """
+    smooth = blurred(shadow, max(0.01 * landmarks.interocular, 0.5))
+    up = landmarks.points[_FOREHEAD[0], :2] - landmarks.points[_BRIDGE, :2]
     up = up / max(float(np.linalg.norm(up)), 1e-6)
-    along = np.arange(-0.3, 0.4, 0.01) * unit
+    height, width = shadow.shape
     deepest = np.nan
-    for point in FOREHEAD:
-        columns, rows = (landmarks.points[point, :2, None] + up[:, None] * along).astype(int)
-        inside = (columns > 1) & (columns < shadow.shape[1] - 2) & (rows > 1) & (rows < shadow.shape[0] - 2)
-        if np.count_nonzero(inside) < 45:
-            continue
-        line, skin = (map_[rows[inside], columns[inside]] for map_ in (smooth, face))
-        for k in range(8, len(line) - 8):
-            if skin[k - 4 : k + 4].min() >= 0.7:
-                sides = min(line[:k].max(), line[k + 1 :].max())
-                deepest = np.fmax(deepest, 1 - line[k] / max(sides, 1e-3))
+    for point in _FOREHEAD:
+        columns, rows = (landmarks.points[point, :2, None] + up[:, None] * _LINE * landmarks.interocular).astype(int)
+        inside = (columns > 1) & (columns < width - 2) & (rows > 1) & (rows < height - 2)
+        if np.count_nonzero(inside) >= _LEAST_LINE:
+            line, skin = (values[rows[inside], columns[inside]] for values in (smooth, face))
+            deepest = np.fmax(deepest, _deepest_dip(line, skin))
     return float(deepest)
 
 
-def _scaled(image: Image, long_side: int) -> Image:
-    """The photo with a long side of at most so many pixels, in whole steps of 8 bits, as its file will have them."""
-    import cv2
-
-    factor = long_side / max(image.width, image.height)
-    if not 0 < factor < 1:
-        return image
-    size = max(1, round(image.width * factor)), max(1, round(image.height * factor))
-    small = cv2.resize(image.pixels, size, interpolation=cv2.INTER_AREA)
-    return image_from_array(np.asarray(np.rint(np.clip(small, 0, 1) * 255), np.uint8))
+def _deepest_dip(line: FloatArray, skin: FloatArray) -> float:
+    """Of values along a line, against the lower of the two maxima beside it; NaN where no part of the line is skin."""
+    deepest = np.nan
+    for k in range(_LEAST_SIDE, len(line) - _LEAST_SIDE):
+        if skin[k - 4 : k + 4].min() >= _SKIN:
+            sides = min(line[:k].max(), line[k + 1 :].max())
+            deepest = np.fmax(deepest, 1 - line[k] / max(float(sides), 1e-3))
+    return float(deepest)

@@ -7,6 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
+from graphface.nodes.commands.distinct_names import check_distinct
+
 
 def gallery(
     folder: Annotated[Path, typer.Argument(help="Folder for the pictures; made if missing.")] = Path("gallery"),
@@ -33,7 +35,7 @@ def gallery(
 
     scenes = scene or shipped_scenes()
     for files in (photo or [], scenes):
-        _check_names(files)
+        check_distinct(files)
     graph = load("relight", profiles=profile or ())
     make_folder(folder)
     photos: list[Path | None] = [*photo] if photo else [None]
@@ -52,21 +54,3 @@ def gallery(
             write_image(found["image"], folder / f"{name}-{path.stem}.png")
         write_picture(contact_sheet(cells, columns=columns, width=300), folder / f"{name}-sheet.png")
     print(f"wrote {len(photos) * len(scenes)} pictures and {len(photos)} sheets to {folder}/")
-
-
-def _check_names(files: list[Path]) -> None:
-    """Pictures are named after photo and scene: two of a name would overwrite each other.
-
-    Raises:
-        UsageError: two files have the same name before the suffix.
-    """
-    from graphface import UsageError
-
-    known: dict[str, Path] = {}
-    for file in files:
-        if file.stem in known:
-            raise UsageError(
-                f"{known[file.stem]} and {file}: the pictures made from one would overwrite those from the other; "
-                "rename one of the two"
-            )
-        known[file.stem] = file

@@ -5,9 +5,9 @@ tell. What matters is whether the light gets less or more. With the shipped grap
 scale-invariant PSNR in dB on path-traced heads, scale-invariant squared error on photographs of the Yale set):
 
     source -> target                          additive    ratio     this
-    frontal -> six lights                        28.27    28.86    28.89
-    left45 -> six lights (--source left45)       25.81    24.62    26.34
-    frontal -> eight lights (--truth yale)      0.0137   0.0119   0.0116
+    frontal -> six lights                        28.57    29.16    29.12
+    left45 -> six lights (--source left45)       25.87    24.20    26.23
+    frontal -> eight lights (--truth yale)      0.0101   0.0101   0.0098
 
 Where light is taken away the whole pixel loses it, highlights included, and a difference would leave them glowing: the
 ratio is better. Where light is added the ratio multiplies darkness of unknown cause by unbounded factors ("odd-looking

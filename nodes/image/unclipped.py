@@ -43,7 +43,8 @@ def unclipped(
 
     Args:
         face: where skin is, H x W; nothing else is raised. A white wall or a lamp is not skin that lost its color, and
-            in the color of a face it would be a stain. None raises every clipped pixel.
+            in the color of a face it would be a stain. On skin full white is raised too. None raises every pixel that
+            has a channel left.
         begin, end: values between which the confidence in a channel falls from 1 to 0. JPEG leaves clipped pixels some
             steps below 1.
         sigma: standard deviation of the average color around, in inter-ocular distances.
@@ -51,7 +52,7 @@ def unclipped(
         resolution: pixels per inter-ocular distance of the copy on which colors are averaged.
 
     Returns:
-        The same values where no channel is clipped, or where all are; elsewhere clipped channels are raised.
+        The same values where no channel is clipped; elsewhere clipped channels are raised.
     """
     import cv2
 
@@ -83,7 +84,10 @@ def unclipped(
         wanted = np.clip(color * brightness[:, None], part, part * np.float32(largest_gain))
         certainty = np.minimum(known.sum(axis=1), 1)[:, None]
         if face is not None:
-            certainty *= face[rows].reshape(-1, 1).take(places, axis=0)
+            # All channels clipped: the least light of the skin's color that reaches them all.
+            reaching = color * (part / color).max(axis=1, keepdims=True)
+            wanted += (1 - certainty) * (np.minimum(reaching, part * np.float32(largest_gain)) - wanted)
+            certainty = face[rows].reshape(-1, 1).take(places, axis=0)
         raised[rows].reshape(-1, 3)[places] = part + (1 - known) * certainty * (wanted - part)
 
     by_strips(reconstruct, raised.shape)

@@ -44,6 +44,8 @@ _CARD = {
     "license": "MIT; see LICENSE.ICT-FaceKit beside this file",
     "source": "ICT-FaceKit, USC Institute for Creative Technologies, reduced",
     "learned_from": "FaceMesh's points lie where the network finds them on path-traced heads made from ICT-FaceKit.",
+    "limits": "No expressions: the smooth displacement takes them up. Ears are wider than real ones on some people.",
+    "command": "graphface models head ict_facekit.npz --data DATA",
 }
 
 

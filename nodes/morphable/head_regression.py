@@ -8,7 +8,7 @@ what the identities lack. All is linear, so the posterior mean at every vertex i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -68,9 +68,9 @@ class HeadRegression:
         return surface
 
 
-@cache
+@lru_cache(maxsize=4)
 def head_regression(model: MorphableModel, prior: Prior) -> HeadRegression:
-    """For a model whose last vertices are its points ("facemesh468"). Computed once for each prior."""
+    """For a model whose last vertices are its points ("facemesh468"). Kept for the last few priors: 15 MB each."""
     split = int(model.landmarks["facemesh468"][0])
     mean = model.mean.astype(np.float64)
     shapes = model.identity.directions[: prior.identity]

@@ -38,9 +38,9 @@ def composite(
         estimated, relit: shading of the whole picture under the photo's own and the new light; H x W or H x W x 3.
         scene: `scene.hair` is the share of the old shading that the brightest hair keeps, `scene.background` the share
             of the new shading on the background.
-        lamps: what gives light itself, H x W; it keeps the old shading.
         labels, shine: without them all pixels count as face.
         response: see `render.response`, H x W; it scales the light that is added, and without it nothing does.
+        lamps: what gives light itself, H x W; it keeps the old shading.
 
     Returns:
         estimated + share * (relit - estimated), float32; three channels if either shading has three.
@@ -68,11 +68,11 @@ def composite(
 def _share_of_new(
     scene: Scene, labels: Segmentation | None, shine: Mask | None, lamps: Mask | None, rows: slice
 ) -> FloatArray:
-    """The share of the new shading at each pixel, H x W."""
-    kept = []
+    """The share of the new shading at each pixel, H x W; at least one of the three masks is there."""
+    keeping = [(shine, scene.hair), (lamps, 1.0)]
     if labels is not None:
-        kept.append(np.float32(1 - scene.background) * labels.background[rows])
-    if shine is not None:
-        kept.append(np.float32(scene.hair) * shine[rows])
-    share = 1 - np.minimum(sum(kept[1:], kept[0]), 1) if kept else np.float32(1)
-    return np.asarray(share * (1 - lamps[rows]) if lamps is not None else share, np.float32)
+        keeping.append((labels.background, 1 - scene.background))
+    kept = [np.float32(share) * mask[rows] for mask, share in keeping if mask is not None]
+    total = np.asarray(sum(kept), np.float32)
+    np.minimum(total, 1, out=total)
+    return np.subtract(1, total, out=total)

@@ -45,7 +45,7 @@ def visible_share(
     triangles: NDArray[np.int32],
     *,
     resolution: int,
-    bias: float | FloatArray,
+    bias: float,
 ) -> FloatArray:
     """The share of a light's irradiance that reaches each point past a mesh.
 
@@ -54,7 +54,7 @@ def visible_share(
         light_points: float32 (k, 3), points on the light.
         vertices, triangles: the mesh that casts the shadow; triangles without area cast none.
         resolution: texels along a side of each map.
-        bias: height above the surface at which a point is compared, inter-ocular distances; one or (n,).
+        bias: height above the surface at which a point is compared, inter-ocular distances.
 
     Returns:
         float32 (n,), 0 in full shadow to 1.
@@ -68,11 +68,10 @@ def visible_share(
     in_parallel(draw, range(len(light_points)))
     drawn = [map_ for map_ in maps if map_ is not None]
     shares = np.empty(len(points), np.float32)
-    biases = np.broadcast_to(np.asarray(bias, np.float32), shares.shape)
 
     def look_up(start: int) -> None:
         chunk = slice(start, start + _CHUNK)
-        shares[chunk] = _share(drawn, points[chunk], normals[chunk], biases[chunk])
+        shares[chunk] = _share(drawn, points[chunk], normals[chunk], bias)
 
     in_parallel(look_up, range(0, len(points), _CHUNK))
     return shares
@@ -92,7 +91,7 @@ def disc(towards: FloatArray, radius: float, count: int) -> FloatArray:
     return np.asarray(offsets, np.float32)
 
 
-def _share(maps: list[_ShadowMap], points: FloatArray, normals: FloatArray, bias: FloatArray) -> FloatArray:
+def _share(maps: list[_ShadowMap], points: FloatArray, normals: FloatArray, bias: float) -> FloatArray:
     """The mean visibility of the light's points, weighted by the cosines of their incidence."""
     received = np.zeros(len(points), np.float32)
     possible = np.full(len(points), np.float32(1e-6))
@@ -103,9 +102,9 @@ def _share(maps: list[_ShadowMap], points: FloatArray, normals: FloatArray, bias
         facing = np.flatnonzero(cosine > 0)
         if not len(facing):
             continue
-        height = np.maximum(bias.take(facing), np.float32(_BIAS_TEXELS * map_.texel))
+        height = np.float32(max(bias, _BIAS_TEXELS * map_.texel))
         cosine = cosine.take(facing)
-        raised = points.take(facing, axis=0) + normals.take(facing, axis=0) * height[:, None]
+        raised = points.take(facing, axis=0) + normals.take(facing, axis=0) * height
         received[facing] += cosine * map_.visibility(raised, height / 2)
         possible[facing] += cosine
     return np.asarray((received + np.float32(1e-6)) / possible, np.float32)
@@ -143,7 +142,7 @@ class _ShadowMap:
         cv2.triangleRasterizeDepth(vertices, caster.triangles, depth, pose, view_angle, near, far, settings)
         self._depth = np.pad(depth, 2, constant_values=np.float32(np.inf))
 
-    def visibility(self, points: FloatArray, bias: FloatArray) -> FloatArray:
+    def visibility(self, points: FloatArray, bias: np.float32) -> FloatArray:
         """Percentage-closer filtering over the four texels around each point: float32 (n,), 1 beyond the map's edge."""
         in_frame = self._in_light_frame(points)
         depth = -in_frame[:, 2]

@@ -14,7 +14,7 @@ from graphface.nodes.color import channel_mean
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.head_shape import CHIN, pose_of
 from graphface.nodes.smoothstep import smoothstep
-from graphface.nodes.types import FloatArray, Image, Landmarks, Mask, Segmentation
+from graphface.nodes.types import Image, Landmarks, Mask, Segmentation
 
 _GLOW = (0.55, 0.85)
 """Intensities between which the surroundings of a lamp begin to count as its glow."""
@@ -23,9 +23,10 @@ _MOST = 256
 """Spots that are looked at, the largest first: a picture of a thousand specks has no lamps."""
 
 _SHOULDERS = 2.5
-"""Half their width and some, in inter-ocular distances."""
+"""Half of their width with a margin, in inter-ocular distances."""
 
 _LEAST_PIXELS = 4
+"""Of the surroundings of a spot, to tell their brightness."""
 
 
 @node("render.lamps")
@@ -41,7 +42,7 @@ def lamps(
     glow: Annotated[float, Field(ge=0, le=2)] = 0.1,
     resolution: Annotated[int, Field(ge=8, le=1024)] = 96,
 ) -> Mask:
-    """Small blown spots of the background that stand out from what is around them: lamps, candles, the sun, reflexes.
+    """Small blown spots of the background that stand out from their surroundings: lamps, candles, the sun, reflections.
 
     Args:
         head: the head by its geometry, H x W; a highlight on it is no lamp, whatever its label.
@@ -67,14 +68,18 @@ def lamps(
         return nothing
     spots = (copy.down(blown_out.astype(np.float32)) > 0.5).astype(np.uint8)
     intensity, wall = copy.down(channel_mean(photo.pixels)), copy.down(background)
-    count, numbers, boxes, middles = cv2.connectedComponentsWithStats(spots)
-    areas = boxes[:, cv2.CC_STAT_AREA]
+    count, found, boxes, middles = cv2.connectedComponentsWithStats(spots)
+    numbers, extents = np.asarray(found, np.int32), np.asarray(boxes, np.int32)
+    areas = extents[:, cv2.CC_STAT_AREA]
     small = np.flatnonzero(areas <= max(largest * copy.interocular**2, 1))
-    small = small[(small > 0) & ~_on_body(middles[small] / copy.scale, landmarks)]
+    small = small[(small > 0) & ~_on_body(np.asarray(middles[small], np.float64) / copy.scale, landmarks)]
     candidates = small[np.argsort(-areas[small], kind="stable")][:_MOST]
     kept = np.zeros(count, np.float32)
     for number in candidates:
-        kept[number] = _stands_out(numbers, number, boxes[number, :4], spots, wall, intensity, contrast)
+        window, reach = _around(extents[number])
+        ring = _grown(numbers[window] == number, reach) & (spots[window] == 0) & (wall[window] > 0.5)
+        around = intensity[window][ring]
+        kept[number] = around.size > _LEAST_PIXELS and np.percentile(around, 25) < 1 - contrast
     if not kept.any():
         return nothing
     width = glow * copy.interocular
@@ -92,24 +97,17 @@ def _on_body(points: NDArray[np.float64], landmarks: Landmarks) -> NDArray[np.bo
     return np.asarray((up < CHIN) & (np.abs(right) < _SHOULDERS))
 
 
-def _stands_out(
-    numbers: NDArray[np.int32],
-    number: int,
-    box: NDArray[np.int32],
-    spots: NDArray[np.uint8],
-    background: FloatArray,
-    intensity: FloatArray,
-    contrast: float,
-) -> bool:
-    """Whether the background in a ring around a spot is darker; the ring is a third of the spot's size wide."""
+def _around(extent: NDArray[np.int32]) -> tuple[tuple[slice, slice], int]:
+    """The part of the picture around a spot, by OpenCV's left, top, width, height, and by how much it is wider."""
+    left, top, width, height = (int(value) for value in extent[:4])
+    reach = round(0.35 * max(width, height)) + 4
+    rows = slice(max(0, top - reach), top + height + reach)
+    return (rows, slice(max(0, left - reach), left + width + reach)), reach
+
+
+def _grown(spot: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
+    """A spot and what is nearer to it than `reach` pixels."""
     import cv2
 
-    left, top, width, height = (int(v) for v in box)
-    reach = round(0.35 * max(width, height)) + 4
-    window = np.s_[max(0, top - reach) : top + height + reach, max(0, left - reach) : left + width + reach]
-    spot = (numbers[window] == number).astype(np.uint8)
-    near = cv2.dilate(spot, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach - 1,) * 2)) > 0
-    ring = near & (spots[window] == 0) & (background[window] > 0.5)
-    if np.count_nonzero(ring) <= _LEAST_PIXELS:
-        return False
-    return bool(np.percentile(intensity[window][ring], 25) < 1 - contrast)
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach - 1,) * 2)
+    return np.asarray(cv2.dilate(spot.astype(np.uint8), disc) > 0)

@@ -42,8 +42,9 @@ def relit(
         photo: the picture before, in the encoding of albedo, shading and detail.
         shading: s^(n), under the new light, H x W or H x W x 3.
         highlights: linear light that is added, H x W x 3.
-        shoulder, toe: see `blend.recombine`. A large toe keeps the depth of a shadow grey and lit: on photographs under
-            known lights (Yale) 0.5 errs by .0090, 0.25 by .0084, 0.1 by .0085.
+        shoulder, toe: see `blend.recombine`. A large toe keeps the depth of a shadow grey and lit under a colored lamp.
+            (Path-traced heads under left80_hard: 0.5 27.3, 0.25 28.0 dB, two heads of another family 24.6 and 24.7;
+            squared error on the Yale set 0.0097 and 0.0098.)
 
     Raises:
         UsageError: albedo, shading or detail is missing, and the scene changes the light.

@@ -30,8 +30,6 @@ def shadow_maps(
     resolution: Annotated[int, Field(ge=1, le=4096)] = 256,
     samples: Annotated[int, Field(ge=1, le=256)] = 12,
     bias: Annotated[float, Field(ge=0, le=0.5), Formerly("lift")] = 0.02,
-    rim_bias: Annotated[float, Field(ge=0, le=0.5)] = 0.08,
-    rim: Annotated[float, Field(ge=0, le=2)] = 0.3,
     smoothing: Annotated[float, Field(ge=0, le=0.5)] = 0.02,
 ) -> Shadows:
     """The visible share of each shadow-casting light at the points that the camera sees.
@@ -42,8 +40,6 @@ def shadow_maps(
         resolution: texels along a side of each light's depth buffer.
         samples: points on a `soft` light. A `hard` one has a single point and twice the resolution.
         bias: height above the surface from which a point is compared with the depth buffer, inter-ocular distances.
-        rim_bias: the same at the edge of the face, where its mesh overhangs the head behind it and would throw a shadow
-            on the forehead. It falls to `bias` within `rim`, inter-ocular distances, to both sides of the edge.
         smoothing: standard deviation of the blur of the result, inter-ocular distances.
 
     Returns:
@@ -51,7 +47,6 @@ def shadow_maps(
     """
     unit = max(mesh.interocular, 1e-3)
     vertices = np.ascontiguousarray(mesh.vertices / np.float32(unit), np.float32)
-    heights = bias + max(rim_bias - bias, 0) * _nearness(receivers, rim * receivers.grid[1] / receivers.picture[1] * unit)
     maps = {}
     for index, light in scene.casting.items():
         shares = np.ones(len(receivers.points), np.float32)
@@ -64,23 +59,11 @@ def shadow_maps(
                 vertices,
                 mesh.triangles,
                 resolution=resolution if soft else 2 * resolution,
-                bias=heights,
+                bias=bias,
             )
         maps[index] = _smoothed(shares, receivers, smoothing * receivers.grid[1] / receivers.picture[1] * unit)
     stacked = np.stack(list(maps.values())) if maps else np.ones((0, *receivers.grid), np.float32)
     return Shadows(lights=tuple(maps), visible=stacked)
-
-
-def _nearness(receivers: Samples, reach: float) -> FloatArray:
-    """How near each point is to the edge of the face mask, (n,): 1 on it, 0 from `reach` cells of the grid on."""
-    import cv2
-
-    face = np.zeros(receivers.grid, np.uint8)
-    face.reshape(-1)[receivers.cells] = receivers.weights > 0
-    if reach <= 0 or not face.any() or face.all():
-        return np.zeros(len(receivers.cells), np.float32)
-    distance = sum(cv2.distanceTransform(part, cv2.DIST_L2, 3) for part in (face, 1 - face))
-    return np.asarray(np.clip(1 - distance.reshape(-1)[receivers.cells] / np.float32(reach), 0, 1), np.float32)
 
 
 def _points_on_light(light: Casting, count: int) -> FloatArray:

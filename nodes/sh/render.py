@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
+from pydantic import Field
 
 from graphface import node
 from graphface.nodes.harmonics import basis, has_surface
@@ -11,8 +14,12 @@ from graphface.nodes.types import Lighting, Normals, Shading
 
 
 @node("sh.render")
-def render(light: Lighting, normals: Normals) -> Shading:
-    """SH(n, l) = max(0, sum_i l_i Y_i(n)), the shading of a surface under a light; 0 where there is no surface.
+def render(light: Lighting, normals: Normals, *, floor: Annotated[float, Field(ge=0, le=1)] = 0.0) -> Shading:
+    """SH(n, l) = max(floor, sum_i l_i Y_i(n)), the shading of a surface under a light; 0 where there is no surface.
+
+    Args:
+        floor: least shading. A fitted light may be negative where the fit saw no surface, such as under the chin; no
+            real light is.
 
     Returns:
         float32, H x W, or H x W x 3 for a colored light.
@@ -22,7 +29,7 @@ def render(light: Lighting, normals: Normals) -> Shading:
     def strip(rows: slice) -> None:
         covered = has_surface(normals[rows])
         values = basis(normals[rows][covered], light.order) @ light.coefficients
-        shading[rows][covered] = np.maximum(values, 0)
+        shading[rows][covered] = np.maximum(values, np.float32(floor))
 
     by_strips(strip, normals.shape)
     return shading

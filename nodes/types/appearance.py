@@ -33,6 +33,8 @@ class DetailMap:
 
     With a pivot the gain applies up to that rendering, and light above it is added as it is:
     photo = gain * min(rendering, pivot) + max(rendering - pivot, 0) + offset.
+    Where light is added, what the photo's color differs from the rendering's fades with (pivot / rendering)^3 of the
+    intensities: the color of a shadow is not that of the light which is added to it.
 
     With a ceiling, everything except the light above the pivot is limited to it. So a photo whose clipped highlights
     were reconstructed beyond its own values is returned as it is.

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from interrupts import HEARD
 from PIL import Image
 
 Run = Callable[..., object]
@@ -196,7 +197,7 @@ class TestInterrupted:
         nodes = ["  n0: {use: toy.slow, in: {a: x}}"]
         nodes += [f"  n{i}: {{use: toy.slow, in: {{a: n{i - 1}}}, with: {{seconds: 0.05}}}}" for i in range(1, 400)]
         path.write_text("graphface: 1\ninputs: {x: {type: float, default: 1}}\nnodes:\n" + "\n".join(nodes) + "\n")
-        program = "import sys; from graphface.cli import main; main(sys.argv[1:])"
+        program = f"{HEARD}; import sys; from graphface.cli import main; main(sys.argv[1:])"
         arguments = ["run", str(path), *plugin, "-o", f"n399={tmp_path / 'a.npz'}", "--cache", str(cache)]
         running = subprocess.Popen(
             [sys.executable, "-c", program, *arguments, "--threads", str(threads)], stderr=subprocess.PIPE, text=True

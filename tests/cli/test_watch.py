@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import toys
+from interrupts import HEARD
 
 PROGRAM = "from graphface.cli import main; main()"
 PACK = """
@@ -35,7 +36,7 @@ class Watching:
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join([path, *sys.path])}
         environment["TMPDIR"] = str(folder)
         with self.log.open("w") as log:
-            command = [sys.executable, "-c", PROGRAM, "run", *arguments, "--watch"]
+            command = [sys.executable, "-c", f"{HEARD}; {PROGRAM}", "run", *arguments, "--watch"]
             self.process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=log)
 
     def says(self, words: str, count: int = 1) -> str:

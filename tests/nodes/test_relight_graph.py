@@ -87,10 +87,10 @@ class TestOnlyWhatTheSceneCallsFor:
             ({"lights": [{**SUN, "shadow": "none"}]}, "shadows", "casts a shadow"),
             ({"lights": [{**SUN, "azimuth": 180}]}, "shadows", "casts a shadow"),
             ({"lights": [SUN]}, "scatter", "scatter: 0"),
-            ({"lights": [SUN]}, "highlights", "specular: 0"),
+            ({"lights": [SUN], "specular": 0}, "highlights", "specular: 0"),
+            ({"lights": [{"type": "sh", "preset": "left"}]}, "highlights", "no light that makes highlights"),
             ({"lights": [SUN]}, "panorama", "no environment light"),
-            ({"lights": [SUN], "hair": 0, "background": 1}, "face/segment/matted", "background: 1"),
-            ({"lights": [SUN], "hair": 0, "background": 1}, "face/segment/classes", "background: 1"),
+            ({"lights": [SUN], "background": 0}, "lamps", "background: 0"),
             ({"lights": [SUN], "hair": 0, "background": 1}, "shine", "hair: 0"),
         ],
     )

@@ -87,8 +87,9 @@ class TestRendering:
 
 class TestAddedLight:
     @staticmethod
-    def lit(light, encoded=np.float32([0.10, 0.04, 0.08])):
+    def lit(light, color=(0.10, 0.04, 0.08)):
         """A dark purple pixel whose albedo is grey, under `light` times its own light."""
+        encoded = np.float32(color)
         photo = Image(encoded[None, None])
         albedo = np.ones((1, 1, 3), np.float32)
         own = np.full((1, 1), encoded.mean(), np.float32)
@@ -109,6 +110,13 @@ class TestAddedLight:
         np.testing.assert_allclose(self.lit(1), [0.10, 0.04, 0.08], atol=1e-6)
         np.testing.assert_allclose(self.lit(1.001), self.lit(1), atol=1e-3)
 
+    def test_a_black_rendering_fades_nothing(self):
+        """Where the estimated light leaves nothing, the photo's pixel stays in the picture."""
+        photo = Image(np.float32([[[0.10, 0.04, 0.08]]]))
+        detail = split(photo, np.ones((1, 1, 3), np.float32), np.zeros((1, 1), np.float32))
+        found = recombined(photo, np.ones((1, 1, 3), np.float32), np.float32([[0.2]]), detail).pixels[0, 0]
+        np.testing.assert_allclose(found, np.float32([0.30, 0.24, 0.28]), atol=1e-3)
+
     def test_black_stays_finite(self):
         """Where the photo has nothing there is no color to fade."""
-        assert np.isfinite(self.lit(3, np.zeros(3, np.float32))).all()
+        assert np.isfinite(self.lit(3, (0, 0, 0))).all()

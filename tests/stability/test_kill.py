@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from interrupts import HEARD
 
 from graphface.cache.disk import DiskTier
 
@@ -113,9 +114,7 @@ class Slow:
         return self.folder / f"mark{number}"
 
     def start(self, *flags: str) -> subprocess.Popen[str]:
-        # A shell starts what it runs in the background, these tests perhaps, with SIGINT ignored.
-        heard = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
-        code = f"{heard}; from graphface.cli import main; main()"
+        code = f"{HEARD}; from graphface.cli import main; main()"
         command = [sys.executable, "-c", code, "run", f"{self.folder}/slow.yaml"]
         command += ["--plugin", f"{self.folder}/slow.py", "--cache", f"{self.folder}/cache"]
         command += ["--trace", f"{self.folder}/run.json", "-o", f"last={self.folder}/last.npy", *flags]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from graphface.nodes.commands.bench.options import Photos, files_of
+from graphface.nodes.commands.distinct_names import check_distinct
 
 if TYPE_CHECKING:
     from graphface.nodes.bench.relit_looks import Look
@@ -26,7 +27,7 @@ def looks(
     ] = None,
     variant: Annotated[str, typer.Option(help="Of `bench lights`, by name.")] = "as shipped",
     every: Annotated[int, typer.Option(min=1, help="Take every n-th photo.")] = 1,
-    long_side: Annotated[int, typer.Option(min=0, help="Pixels to which larger photos are scaled; 0: no.")] = 1000,
+    long_side: Annotated[int, typer.Option(min=1, help="Pixels to which larger photos are scaled.")] = 1000,
 ) -> None:
     """Relight photographs and write what a scorer of visible defects reads: one folder for each photo and scene.
 
@@ -44,7 +45,10 @@ def looks(
     (changed,) = chosen_variants([variant])
     graph = load("relight", replace=changed.replace, set=changed.set)
     scenes = [scene_file(name) for name in scene or ("window-left", "split")]
-    found = list(relit_looks(files_of(photos)[::every], scenes, graph, out, long_side))
+    chosen = files_of(photos)[::every]
+    for files in (chosen, scenes):
+        check_distinct(files)
+    found = list(relit_looks(chosen, scenes, graph, out, long_side))
     print_table(
         ("scene", ">photos", ">far / near cheek", ">dip at the rim"),
         [_row(path.stem, [look for look in found if look.scene == path.stem]) for path in scenes],

@@ -38,7 +38,9 @@ class TestShadowColor:
         """Whatever its own; its brightness stays."""
         albedo, shading, spot = spotted(color=color)
         found = tamed(albedo, shading)[spot]
-        np.testing.assert_allclose(found / found.mean(axis=1, keepdims=True), [SKIN / SKIN.mean()] * len(found), atol=0.05)
+        np.testing.assert_allclose(
+            found / found.mean(axis=1, keepdims=True), [SKIN / SKIN.mean()] * len(found), atol=0.05
+        )
         np.testing.assert_allclose(found.mean(axis=1), color.mean(), rtol=1e-4)
 
     def test_what_is_no_skin_stays(self):
@@ -60,9 +62,10 @@ class TestShadowColor:
         albedo = np.where(spot[..., None], mole, np.where(dark[..., None], purple, SKIN))
         found = tamed(albedo, np.where(dark, 0.3, 0.6).astype(np.float32), black=0.01)
         around, redness = found[48, 80], found[..., 0] / found[..., 1]
-        assert np.abs(around / around.mean() - SKIN / SKIN.mean()).max() < 0.6 * np.abs(
-            purple / purple.mean() - SKIN / SKIN.mean()
-        ).max()
+        assert (
+            np.abs(around / around.mean() - SKIN / SKIN.mean()).max()
+            < 0.6 * np.abs(purple / purple.mean() - SKIN / SKIN.mean()).max()
+        )
         assert redness[48, 70] > 1.2 * redness[48, 80]
 
     def test_lips_keep_their_hue(self):
@@ -81,6 +84,11 @@ class TestShadowColor:
         """Paint in full light, shadow of the skin's own color."""
         albedo, shading, _ = spotted(light, color)
         np.testing.assert_allclose(tamed(albedo, shading), albedo, atol=0.02)
+
+    def test_may_be_switched_off(self):
+        """With both thresholds near 0 nothing counts as dark: the ablations do so."""
+        albedo, shading, _ = spotted()
+        np.testing.assert_allclose(tamed(albedo, shading, threshold=0.001, black=0.001), albedo, rtol=1e-5)
 
     def test_sets_in_gradually(self):
         """No edge where a spot is a little darker than another."""

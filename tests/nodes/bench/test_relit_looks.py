@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from graphface import load
-from graphface.nodes.bench.relit_looks import relit_looks
+from graphface import UsageError, load
+from graphface.nodes.bench.relit_looks import relit_looks, rim_dip
 from graphface.nodes.bench.shipped import scene_file
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_picture
@@ -59,8 +59,35 @@ class TestRelitLooks:
     def test_rim(self, looks):
         """A share where a shadow is cast, else nothing."""
         left, even = looks[0]
-        assert math.isnan(left.rim) or 0 <= left.rim <= 1
+        assert 0 <= left.rim < 0.2
         assert math.isnan(even.rim)
+
+
+class TestRimDip:
+    @pytest.fixture
+    def landmarks(self, make_face):
+        return make_face(size=300, scale=0.3)[1]
+
+    @staticmethod
+    def arc(landmarks, depth):
+        """Light with a dark line at the top of the face mesh."""
+        rows = np.arange(300, dtype=np.float32)[:, None] - landmarks.points[10, 1]
+        return np.broadcast_to(1 - depth * np.exp(-np.square(rows / 4)), (300, 300)).astype(np.float32)
+
+    @pytest.mark.parametrize("depth", [0.1, 0.5])
+    def test_an_arc_is_found(self, landmarks, depth):
+        """About as deep as it is."""
+        found = rim_dip(self.arc(landmarks, depth), landmarks, np.ones((300, 300), np.float32))
+        assert found == pytest.approx(depth, rel=0.15)
+
+    def test_light_that_falls_off_is_no_dip(self, landmarks):
+        """Darker towards the top, without a brighter side beyond."""
+        slope = np.broadcast_to(np.linspace(0.2, 1, 300, dtype=np.float32)[:, None], (300, 300)).copy()
+        assert rim_dip(slope, landmarks, np.ones((300, 300), np.float32)) < 0.01
+
+    def test_beneath_hair_nothing_counts(self, landmarks):
+        """No skin, no dip."""
+        assert math.isnan(rim_dip(self.arc(landmarks, 0.5), landmarks, np.zeros((300, 300), np.float32)))
 
 
 class TestSceneFile:
@@ -72,5 +99,5 @@ class TestSceneFile:
 
     def test_neither(self):
         """The nearest name is offered."""
-        with pytest.raises(Exception, match="candel.*candle"):
+        with pytest.raises(UsageError, match=r"candel.*candle"):
             scene_file("candel")

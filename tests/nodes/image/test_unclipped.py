@@ -57,6 +57,15 @@ class TestUnclipped:
         np.testing.assert_array_equal(found[:, SIDE // 2 :], photo.pixels[:, SIDE // 2 :])
         assert (found[:, : SIDE // 2] > 1.02).any()
 
+    def test_full_white_on_skin_has_its_color(self):
+        """A highlight that is clipped in all channels is skin when light is taken away from it."""
+        pixels = clipped(shiny(peak=2.5)).pixels
+        white = pixels.min(axis=2) == 1
+        assert white.any()
+        found = unclipped(Image(pixels), eyes_apart(INTEROCULAR), np.ones((SIDE, SIDE), np.float32)).pixels[white]
+        assert (found > 1 - 1e-6).all()
+        assert (found[:, 0] > 1.2 * found[:, 2]).all()
+
     def test_grey_stays_grey(self):
         """A black-and-white photo has no color to give back."""
         grey = np.repeat(np.minimum(shiny()[..., :1], 1), 3, axis=2)

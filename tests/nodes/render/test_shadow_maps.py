@@ -77,20 +77,6 @@ class TestShadowMaps:
         assert seen[60, 60 + int(0.55 * UNIT)] < 0.2
         assert seen[60, 15] > 0.98
 
-    def test_the_edge_of_the_face_casts_no_contact_shadow(self):
-        """A plate that overhangs the wall by little shadows it only where the mask has no edge."""
-        mesh = mesh_of(*wall_with_plate(height=0.05, half=0.5))
-        surface = rasterize(mesh, PHOTO)
-        x = np.mgrid[:120, :120][1] - 59.5
-        edge = (x < 0.5 * UNIT).astype(np.float32)  # along the plate's right side
-        found = []
-        for mask in (surface.coverage, edge):
-            points = samples(surface, surface.coverage, mask, PHOTO, mesh, resolution=64)
-            found.append(shadow_maps(mesh, points, Scene.coerce({"lights": [LIGHT]}), smoothing=0).visible[0])
-        beside = np.s_[60, 60 + int(0.5 * UNIT)]
-        assert found[0][beside] < 0.5
-        assert found[1][beside] > 0.9
-
     def test_soft_is_softer_than_hard(self):
         """More of the wall lies in half shadow."""
         mesh = mesh_of(*wall_with_plate())

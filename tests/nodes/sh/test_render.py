@@ -28,3 +28,13 @@ class TestRender:
     def test_colored_light_has_three_channels(self):
         """Coefficients (n, 3) shade H x W x 3."""
         assert render(ambient(np.float32([1, 0.5, 0.2])), NORMALS).shape == (*EVERYWHERE.shape, 3)
+
+
+def test_no_darker_than_the_floor():
+    """A fitted light that is negative somewhere; where there is no surface there is no shading."""
+    normals = np.zeros((1, 3, 3), np.float32)
+    normals[0, 0, 2], normals[0, 1, 2] = 1, -1
+    light = Lighting(np.float32([1, 0, 2, 0]))
+    plain, floored = render(light, normals), render(light, normals, floor=0.05)
+    assert plain[0, 1] == 0
+    np.testing.assert_allclose(floored, [[plain[0, 0], 0.05, 0]])
