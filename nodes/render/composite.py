@@ -15,7 +15,6 @@ def _needs(scene: Scene) -> Needs:
         "labels": scene.background != 1 or "the scene lights the background like the face (background: 1)",
         "shine": scene.hair != 0 or "the scene lights hair like the face (hair: 0)",
         "lamps": scene.background > 0 or "the scene does not light the background (background: 0)",
-        "response": scene.background != 1 or "without labels all is lit like the face (background: 1)",
     }
 
 
@@ -26,7 +25,7 @@ def composite(
     scene: Scene,
     labels: Lazy[Segmentation] = None,
     shine: Lazy[Mask] = None,
-    response: Lazy[Mask] = None,
+    response: Mask | None = None,
     lamps: Lazy[Mask] = None,
 ) -> Shading:
     """The face gets the new shading, the background a constant mixture, bright hair keeps more of the old shading.
@@ -45,14 +44,16 @@ def composite(
     Returns:
         estimated + share * (relit - estimated), float32; three channels if either shading has three.
     """
-    if labels is None and shine is None and lamps is None:
+    masks = labels is not None or shine is not None or lamps is not None
+    if not masks and response is None:
         return relit
     mixed = np.empty(estimated.shape if estimated.ndim > relit.ndim else relit.shape, np.float32)
 
     def strip(rows: slice) -> None:
         before = with_channels_of(estimated[rows], mixed)
         change = with_channels_of(relit[rows], mixed) - before
-        change *= with_channels_of(_share_of_new(scene, labels, shine, lamps, rows), mixed)
+        if masks:
+            change *= with_channels_of(_share_of_new(scene, labels, shine, lamps, rows), mixed)
         if response is not None:
             # max(change, 0) * response + min(change, 0)
             removed = np.minimum(change, 0)

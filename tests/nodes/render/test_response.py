@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from graphface.nodes.render.response import response
-from graphface.nodes.types import (
-    Segmentation,
-)
+from graphface.nodes.types import Image, Landmarks, Segmentation
 
 SHAPE = (6, 9)
 
@@ -33,3 +32,18 @@ class TestResponse:
             held = response(own, estimated, thirds())
             assert held.min() >= 0
             assert held.max() <= 1
+
+    def test_noisy_shadow_takes_less_light(self):
+        """In proportion to its brightness, and the user is told."""
+        random, side = np.random.default_rng(0), 120
+        light = np.where(np.arange(side) < side // 2, 0.1, 0.6)[None] * np.ones((side, 1))
+        noisy = light * (1 + np.where(light < 0.5, 0.3, 0.02) * random.normal(size=light.shape))
+        points = np.zeros((68, 3), np.float32)
+        points[36, :2], points[45, :2] = (30, 50), (90, 50)
+        own, skin = np.full(light.shape, 0.4, np.float32), np.ones(light.shape, np.float32)
+        labels = Segmentation(skin, 0 * skin, 0 * skin)
+        photo = Image(np.repeat(np.clip(noisy, 0, 1)[..., None], 3, 2).astype(np.float32))
+        with pytest.warns(match="dark and noisy"):
+            held = response(own, own, labels, photo, Landmarks(points, "ibug68"))
+        assert (held[:, side // 2 :] == 1).all()
+        assert 0.3 < held[:, : side // 2].mean() < 0.9
