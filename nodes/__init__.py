@@ -21,7 +21,7 @@ _MODULES = {
     "albedo": "shadow_color",
     "metrics": "psnr si_psnr ssim ms_ssim dssim si_mse lmse whdr normal_angle light_angle iou landmark_error",
     "representation": "bundle given",
-    "sh": "fit render rotate from_environment to_environment ball",
+    "sh": "skin_weights fit render rotate from_environment to_environment ball",
     "detail": "additive multiplicative none split",
     "detail.edit": "bands wrinkles shine",
     "render": "samples shade shadow_maps surroundings spread background head skin specular hair_shine response "

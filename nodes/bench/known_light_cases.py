@@ -26,6 +26,9 @@ _FRONTAL = "A+000E+00"
 _BORDER = 96
 """Pixels put around the Yale crops, which are too tight for a face detector."""
 
+_GREY = 0.2
+"""The linear value of those pixels. The crop's own edge continued outwards would look like skin in another light."""
+
 _AMBIENT = 0.03
 """Ambient share of the Yale light stage, from the darkest shadows; its lamps are about 2 degrees to the edge."""
 
@@ -70,15 +73,13 @@ def yale_cases(data: Path, every: int = 1) -> Iterator[Case]:
     Raises:
         UnreadableFile: there are no people at `data`.
     """
-    import cv2
-
     people = sorted(path for path in (data / "yaleb").glob("yaleB*") if path.is_dir())[::every]
     if not people:
         raise UnreadableFile(data / "yaleb", "holds no people (folders yaleB01 ...)")
     for person in people:
         pixels = read_image(person / f"{person.name}_P00{_FRONTAL}.png").pixels
-        sides = (_BORDER,) * 4
-        padded = np.asarray(cv2.copyMakeBorder(pixels, *sides, cv2.BORDER_REPLICATE), np.float32)
+        padded = np.full((pixels.shape[0] + 2 * _BORDER, pixels.shape[1] + 2 * _BORDER, 3), _GREY, np.float32)
+        padded[_BORDER:-_BORDER, _BORDER:-_BORDER] = pixels
         photo = Image(padded, encoding="linear")
         for light in YALE_LIGHTS:
             path = person / f"{person.name}_P00{light}.png"
