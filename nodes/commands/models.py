@@ -165,7 +165,7 @@ def labels(
 @app.command()
 def render(
     out: Annotated[Path, typer.Argument(help="Folder to fill, NUMBER.npz each; what is there is not rendered again.")],
-    head: Annotated[Path, typer.Option(help="Your copy of ICT-FaceKit (MIT), packed as NumPy arrays.")],
+    head: Annotated[Path, typer.Option(help="Your copy of ICT-FaceKit (MIT): its folder FaceXModel, or packed.")],
     count: Annotated[int, typer.Option(min=1, help="Number of examples.")] = 100,
     seed: Annotated[int, typer.Option(min=0, help="Number of the first; each example depends on its number.")] = 0,
     size: Annotated[int, typer.Option(min=16, max=1024, help="Pixels along a side.")] = 224,

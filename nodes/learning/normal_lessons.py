@@ -51,7 +51,7 @@ def lessons_of(folder: Path) -> Iterator[Lesson]:
     """
     from rich.progress import track
 
-    graph = load("represent")
+    graph = load("represent", set={"refined.strength": 0.0})
     paths = sorted(folder.glob("*.npz"))
     if not paths:
         raise UnreadableFile(folder, "holds no examples; `graphface models render` makes them")

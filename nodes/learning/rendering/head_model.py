@@ -10,24 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import UnreadableFile
+from graphface.nodes.morphable.readers.ict import IctHead, triangles_of
+from graphface.nodes.morphable.readers.ict import read_head as read_ict
 from graphface.nodes.morphable.subdivide import loop
 
 SKIN, EYE, TEETH, GUMS, CAVITY = range(5)
 """What a vertex belongs to."""
 
 
-_PARTS = {
-    "face": SKIN,
-    "head_neck": SKIN,
-    "mouth_socket": CAVITY,
-    "eye_socket_l": CAVITY,
-    "eye_socket_r": CAVITY,
-    "gums_tongue": GUMS,
-    "teeth": TEETH,
-    "eyeball_l": EYE,
-    "eyeball_r": EYE,
-}
-"""The parts that are rendered. Lashes and the fluids of the eye are transparent sheets and are left out."""
+_PARTS = (
+    (slice(0, 11144), SKIN),
+    (slice(11144, 14034), CAVITY),
+    (slice(14034, 17006), GUMS),
+    (slice(17006, 21496), TEETH),
+    (slice(21496, 24692), EYE),
+)
+"""Polygons of the parts that are rendered (ICT-FaceKit's README). Lashes and the fluids of the eye, which follow, are
+transparent sheets and are left out."""
 
 
 _SMOOTH = {SKIN, CAVITY}
@@ -57,55 +56,48 @@ class HeadModel:
     landmarks: NDArray[np.int64]
 
 
-def read_head(path: Path) -> HeadModel:
-    """The head of ICT-FaceKit, packed as NumPy arrays.
+def read_head(source: Path) -> HeadModel:
+    """The head of ICT-FaceKit: the makers' folder, or a packed .npz.
 
     Raises:
-        UnreadableFile: the file is missing, or has not the parts of a whole head.
+        UnreadableFile: files are missing, do not agree, or are not those of the whole head.
     """
-    try:
-        with np.load(path, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-        return _assembled(arrays)
-    except (OSError, ValueError, EOFError) as error:
-        raise UnreadableFile(path, f"not a packed ICT-FaceKit: {error}") from error
-    except KeyError as error:
-        raise UnreadableFile(path, f"not a packed ICT-FaceKit: lacks {error.args[0]!r}") from None
+    head = read_ict(source)
+    if len(head.polygons) < _PARTS[-1][0].stop:
+        raise UnreadableFile(source, f"holds {len(head.polygons)} polygons, not the whole head of ICT-FaceKit")
+    return _assembled(head)
 
 
-def _assembled(arrays: dict[str, NDArray[Any]]) -> HeadModel:
+def _assembled(head: IctHead) -> HeadModel:
     from scipy.sparse import csr_array, vstack
 
-    count = len(arrays["mean"])
-    names = [str(name) for name in arrays["part_names"]]
+    count = len(head.mean)
     part = np.full(count, -1, np.int8)
-    part_of_face = np.full(len(arrays["faces"]), -1, np.int8)
-    for name, kind in _PARTS.items():
-        row = names.index(name)
-        part[slice(*arrays["part_vertex_range"][row])] = kind
-        part_of_face[slice(*arrays["part_face_range"][row])] = kind
-    part_of_triangle = part_of_face[arrays["tri_face"]]
-    triangles = arrays["triangles"].astype(np.int32)
-    fine = np.isin(part_of_triangle, list(_SMOOTH))
-    matrix, refined = loop(triangles[fine], count)
+    fine, coarse = [], []
+    for polygons, kind in _PARTS:
+        triangles = triangles_of(head.polygons[polygons])
+        own = np.unique(triangles)
+        part[own[part[own] < 0]] = kind  # an edge belongs to the skin, not to the cavity behind it
+        (fine if kind in _SMOOTH else coarse).append(triangles)
+    smooth_triangles = np.concatenate(fine).astype(np.int32)
+    matrix, refined = loop(smooth_triangles, count)
     kinds = np.concatenate([part, _kinds_of_edges(matrix[count:], part)])
-    coarse = triangles[(part_of_triangle >= 0) & ~fine]
-    used, flat = np.unique(np.concatenate([refined, coarse]), return_inverse=True)
+    used, flat = np.unique(np.concatenate([refined, *coarse]), return_inverse=True)
     # Loop's rule also moves vertices without a smooth triangle: those keep their places.
     keep = csr_array((np.ones(count), (np.arange(count), np.arange(count))), shape=(count, count))
     smooth = np.zeros(count, bool)
-    smooth[np.unique(triangles[fine])] = True
+    smooth[np.unique(smooth_triangles)] = True
     select = csr_array((smooth.astype(float), (np.arange(count), np.arange(count))), shape=(count, count))
     first = select @ matrix[:count] + (keep - select)
     return HeadModel(
-        mean=arrays["mean"].astype(np.float64),
-        identity=arrays["identity"],
-        expression=arrays["expression"],
-        names=tuple(str(name) for name in arrays["expression_names"]),
+        mean=head.mean.astype(np.float64),
+        identity=head.identity,
+        expression=head.expression,
+        names=head.names,
         refinement=csr_array(vstack([first, matrix[count:]]))[used],
         triangles=flat.reshape(-1, 3).astype(np.int32),
         part=kinds[used],
-        landmarks=arrays["landmarks68"].astype(np.int64),
+        landmarks=head.landmarks.astype(np.int64),
     )
 
 

@@ -90,11 +90,11 @@ def _from_archive(path: Path) -> IctHead:
     """The arrays `mean`, `identity`, `expression` (differences to the mean), `faces` or `triangles`, `landmarks68`."""
     try:
         with np.load(path, allow_pickle=False) as file:
-            polygons = file["faces"]
+            faces = file["faces"].astype(np.int64)
             uv = file["uv"][file["uv_index_of_vertex"]] if "uv_index_of_vertex" in file else None
             return IctHead(
                 mean=file["mean"],
-                polygons=polygons.astype(np.int64),
+                polygons=np.where(faces < 0, faces[:, 2:3], faces),  # a triangle's fourth corner is -1
                 identity=file["identity"],
                 expression=file["expression"],
                 names=tuple(str(name) for name in file["expression_names"]),

@@ -17,6 +17,10 @@ class TestReadHead:
         np.savez(tmp_path / "a.npz", mean=np.zeros((3, 3)))
         with pytest.raises(UnreadableFile, match="lacks"):
             read_head(tmp_path / "a.npz")
+        face = {"faces": np.zeros((2, 4), int), "identity": [], "expression": [], "expression_names": []}
+        np.savez(tmp_path / "face.npz", mean=np.zeros((3, 3)), landmarks68=np.zeros(68, int), **face)
+        with pytest.raises(UnreadableFile, match="not the whole head"):
+            read_head(tmp_path / "face.npz")
 
     def test_the_head(self, head):
         """It has skin, eyes, teeth and cavities, refined where relief stands, and closed triangles only."""
