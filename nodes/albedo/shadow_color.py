@@ -9,14 +9,15 @@ albedo loses.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import Formerly, node
 from graphface.nodes.blur import blurred
-from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.face_outlines import EYES, LIPS
 from graphface.nodes.face_scale import FaceScale, face_scale
@@ -30,6 +31,9 @@ _REGION = 0.15
 
 _LARGEST_FACTOR = np.float32(2.5)
 """Of one channel against the others: skin under a second light is never farther from lit skin."""
+
+_FAINT = np.float32(0.01)
+"""Where the label is less than this there is no skin. Soft labels are hardly ever 0."""
 
 _MARGIN = 0.05
 """Width around eyes and lips that counts with them, in inter-ocular distances."""
@@ -73,29 +77,34 @@ def shadow_color(
     usual, limit, lit = _lit_skin(small, skin * on_face * bare + _LEAST, max(sigma * copy.interocular, 0.5))
     dark = _darkness(channel_mean(small), usual, threshold) * on_face * bare
     excess = copy.up((_adaptation(small, lit, dark, copy) - 1) * in_three_channels(bare))
-    maps = [copy.up(values) for values in (usual, limit, bare, lit, excess)]
-    window = None if face is None else bounding_box(face)
+    usual, limit, bare, lit = (copy.up(values) for values in (usual, limit, bare, lit))
     result = albedo.copy()
-    if face is not None and window is None:
-        return result
-    rows, columns = window or (slice(0, albedo.shape[0]), slice(0, albedo.shape[1]))
 
-    def strip(part: slice) -> None:
-        place = slice(rows.start + part.start, rows.start + part.stop), columns
-        own, brightness = albedo[place], channel_mean(photo.pixels[place])
-        usual, limit, bare, lit, excess = (values[place] for values in maps)
-        is_face = np.float32(1) if face is None else face[place]
-        grey = channel_mean(own)
-        share = _darkness(brightness, usual, threshold) * is_face
-        adapted = own * (1 + excess * in_three_channels(share))
-        adapted = _less_saturated(adapted, limit, share)
-        brighter = np.asarray(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)), np.float32)
-        adapted *= in_three_channels(brighter)
-        share = _darkness(brightness, usual, black) * is_face * bare
-        result[place] = adapted + in_three_channels(share) * (in_three_channels(grey) * lit - adapted)
+    def strip(rows: slice) -> None:
+        brightness = channel_mean(photo.pixels[rows])
+        is_face = np.float32(1) if face is None else np.clip((face[rows] - _FAINT) / (1 - _FAINT), 0, 1)
+        dark = _darkness(brightness, usual[rows], threshold) * is_face
+        darker = _darkness(brightness, usual[rows], black) * is_face * bare[rows]
+        places = np.flatnonzero(np.maximum(dark, darker))
+        if len(places):
+            # Few pixels are dark skin: only they are computed, as a picture of one row.
+            few = partial(_at, places)
+            own, share = few(albedo[rows]), few(dark)
+            grey = channel_mean(own)
+            adapted = own * (1 + few(excess[rows]) * in_three_channels(share))
+            adapted = _less_saturated(adapted, few(limit[rows]), share)
+            brighter = np.asarray(grey / np.maximum(channel_mean(adapted), np.float32(1e-6)), np.float32)
+            adapted *= in_three_channels(brighter)
+            adapted += in_three_channels(few(darker)) * (in_three_channels(grey) * few(lit[rows]) - adapted)
+            result[rows].reshape(-1, 3)[places] = adapted[0]
 
-    by_strips(strip, (rows.stop - rows.start, columns.stop - columns.start, 3))
+    by_strips(strip, albedo.shape)
     return result
+
+
+def _at(places: NDArray[np.intp], map_: FloatArray) -> FloatArray:
+    """Pixels of a map H x W (x c) by their numbers, as a map 1 x n (x c)."""
+    return map_.reshape(-1, *map_.shape[2:]).take(places, axis=0)[None]
 
 
 def _lit_skin(small: FloatArray, skin: FloatArray, sigma: float) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -66,14 +66,16 @@ def _with_highlights(image: Image, highlights: FloatArray) -> FloatArray:
     pixels = np.empty_like(image.pixels)
 
     def strip(rows: slice) -> None:
-        part, light = image.pixels[rows], highlights[rows]
-        if light.any():
+        part = pixels[rows].reshape(-1)
+        part[...] = image.pixels[rows].reshape(-1)
+        # Where no light is added the value stays to the last bit.
+        places = np.flatnonzero(highlights[rows].reshape(-1) > 0)
+        if len(places):
+            light, own = highlights[rows].reshape(-1).take(places), part.take(places)
             # On bright skin a highlight fades into white instead of burning out: the share of the way to white that it
-            # takes on black. A value above white stays. Where no light is added the value stays to the last bit.
-            before = decode_srgb(part)
-            brighter = np.maximum(encode_srgb(before + np.minimum(light, 1) * np.maximum(1 - before, 0)), part)
-            part = np.where(light > 0, brighter, part)
-        pixels[rows] = part
+            # takes on black. A value above white stays.
+            before = decode_srgb(own)
+            part[places] = np.maximum(encode_srgb(before + np.minimum(light, 1) * np.maximum(1 - before, 0)), own)
 
     by_strips(strip, pixels.shape)
     return pixels
