@@ -30,6 +30,9 @@ ASKED = {
 _INTERIOR = 0.25
 """Weight of eyes and teeth, which few pixels show and which the mesh has not."""
 
+_EDGE = 4
+"""Pixels along the edge of skin that nothing is learned from."""
+
 
 @dataclass(frozen=True)
 class Lesson:
@@ -75,6 +78,8 @@ def lesson_of(example: Example, graph: Graph) -> Lesson:
     Raises:
         GraphfaceError: no face is found.
     """
+    import cv2
+
     photo = Image(example.photo.astype(np.float32) / np.float32(255))
     found = graph.run(list(ASKED.values()), evaluator=Evaluator(memory=MemoryTier()), photo=photo)
     crop = face_crop(found["landmarks"])
@@ -83,6 +88,8 @@ def lesson_of(example: Example, graph: Graph) -> Lesson:
     normals /= np.maximum(np.sqrt(np.square(normals).sum(axis=2, keepdims=True)), 1e-3)
     skin, inner = (crop.sampled((example.labels == k).astype(np.float32)) for k in (BARE_SKIN, EYES_AND_TEETH))
     known = (seen[..., COVERAGE] > 0.9) & (skin + inner > 0.9) & (_inside(crop.matrix, example.photo.shape))
+    # Beside hair, which stands off the scalp like a step, the skin's own normals are those of the step.
+    known = cv2.erode(known.astype(np.uint8), np.ones((2 * _EDGE + 1, 2 * _EDGE + 1), np.uint8)) > 0
     weight = np.where(skin > 0.5, skin, _INTERIOR * inner) * known
     return Lesson(*(np.asarray(part, np.float16) for part in (seen, normals, weight)))
 

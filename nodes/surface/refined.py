@@ -23,7 +23,10 @@ from graphface.nodes.surface.normal_network import (
     network_input,
     shipped_weights,
 )
-from graphface.nodes.types import FloatArray, Image, Landmarks, Lighting, Mask, Surface
+from graphface.nodes.types import FloatArray, Image, Landmarks, Lighting, Mask, Segmentation, Surface
+
+_HAIR_REACH = 0.1
+"""Inter-ocular distances."""
 
 
 @node("surface.refined")
@@ -33,6 +36,7 @@ def refined(
     landmarks: Landmarks,
     mask: Mask,
     light: Lighting,
+    labels: Segmentation | None = None,
     weights: NormalWeights | None = None,
     *,
     finer_than: Annotated[float, Field(gt=0, le=1)] = 0.12,
@@ -46,6 +50,8 @@ def refined(
         landmarks: any scheme; they give the position, size and roll of the face.
         mask: of the face, by which the picture's and the light's mean are taken.
         light: the estimated light, in the encoding of the photo.
+        labels: hair, and what lies within 0.1 inter-ocular distances of it, keeps its normals. To the network a
+            hairline is a step.
         weights: the shipped ones by default.
         finer_than: standard deviation of the Gaussian, in inter-ocular distances, whose smooth part of the correction
             is left out; 1 takes the whole correction. The fit's coarse shape is better on real faces than what a
@@ -66,7 +72,18 @@ def refined(
     seen = network_input(crop, photo, surface, mask, light)
     arrays = shipped_weights() if weights is None else weights.arrays
     change = np.float32(strength) * _fine(corrections(seen, arrays, mirrored), seen, finer_than)
+    if labels is not None:
+        change *= _off_hair(crop.sampled(labels.hair))
     return replace(surface, normals=_changed(surface, crop, change))
+
+
+def _off_hair(hair: FloatArray) -> FloatArray:
+    """0 on hair and beside it, 1 farther away, SIZE x SIZE x 1."""
+    import cv2
+
+    reach = round(_HAIR_REACH * INTEROCULAR)
+    wider = cv2.dilate(hair, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1)))
+    return np.asarray(1 - cv2.GaussianBlur(wider, (0, 0), reach / 2)[..., None], np.float32)
 
 
 def _fine(change: FloatArray, seen: FloatArray, finer_than: float) -> FloatArray:

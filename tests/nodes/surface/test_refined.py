@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -20,15 +22,25 @@ from graphface.nodes.surface.normal_network import (
     unshuffled,
 )
 from graphface.nodes.surface.refined import refined
-from graphface.nodes.types import Image, Lighting
+from graphface.nodes.types import Image, Lighting, Segmentation
 from graphface.testing import check_node
 
 LIGHT = Lighting(np.float32([2.0, 0.3, 0.8, -0.4]))
 
 
+def domed(surface):
+    """A surface with the normals of a sphere over the same pixels."""
+    height, width = surface.coverage.shape
+    y, x = np.mgrid[:height, :width].astype(np.float32)
+    x, y = (x - width / 2) / width, (height / 2 - y) / height
+    normals = np.dstack([x, y, np.sqrt(np.maximum(1 - x * x - y * y, 0.01))])
+    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
+    return replace(surface, normals=(normals * surface.coverage[..., None]).astype(np.float32))
+
+
 def case(side=160, **more):
     photo, landmarks, _ = portrait(side, **more)
-    surface = surface_of(landmarks, (side, side))
+    surface = domed(surface_of(landmarks, (side, side)))
     return surface, photo, landmarks, surface.coverage, LIGHT
 
 
@@ -50,6 +62,16 @@ class TestRefined:
         assert refined(before, *others, strength=0.0) is before
         half, whole = (refined(before, *others, strength=s).normals - before.normals for s in (0.5, 1.0))
         assert np.linalg.norm(half) == pytest.approx(np.linalg.norm(whole) / 2, rel=0.1)
+
+    def test_hair_keeps_its_normals(self):
+        """What lies far from hair is refined as it is without labels."""
+        before, *others = case()
+        hair = np.zeros_like(before.coverage)
+        hair[:, :70] = 1
+        free = refined(before, *others).normals
+        held = refined(before, *others, Segmentation(before.coverage, hair, 1 - before.coverage)).normals
+        np.testing.assert_allclose(held[:, :60], before.normals[:, :60], atol=1e-5)
+        np.testing.assert_allclose(held[:, 110:], free[:, 110:], atol=1e-3)
 
     def test_fine_part(self):
         """The finer the part that is taken, the smaller the change."""
@@ -125,7 +147,7 @@ class TestCorrections:
         """A network of zero weights changes nothing."""
         before, *others = case(80)
         zeros = NormalWeights({name: np.zeros_like(values) for name, values in shipped_weights().items()})
-        np.testing.assert_allclose(refined(before, *others, zeros).normals, before.normals, atol=1e-5)
+        np.testing.assert_allclose(refined(before, *others, weights=zeros).normals, before.normals, atol=1e-5)
 
     def test_channels(self):
         """The four pixels of a cell stand together, channel by channel."""
