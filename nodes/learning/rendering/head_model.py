@@ -73,7 +73,8 @@ def _assembled(head: IctHead) -> HeadModel:
 
     count = len(head.mean)
     part = np.full(count, -1, np.int8)
-    fine, coarse = [], []
+    fine: list[NDArray[np.int64]] = []
+    coarse: list[NDArray[np.int64]] = []
     for polygons, kind in _PARTS:
         triangles = triangles_of(head.polygons[polygons])
         own = np.unique(triangles)
