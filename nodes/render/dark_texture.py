@@ -17,7 +17,7 @@ from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import FloatArray, Landmarks, Mask
 
-_LEVELS = np.float32([0, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.22, 0.25])
+_LEVELS = (0.0, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.22, 0.25)
 """Bounds of the brightnesses that are looked at; skin above the last is lit enough."""
 
 _RESOLUTION, _SIGMA = 100, 1.5
@@ -54,5 +54,5 @@ def rough_below(brightness: FloatArray, skin: Mask, landmarks: Landmarks, roughe
     for low, high in pairwise(_LEVELS):
         here = (smooth >= low) & (smooth < high)
         if np.count_nonzero(here) >= fewest and np.median(texture[here]) > rougher * lit:
-            found = float(high)
+            found = high
     return found
