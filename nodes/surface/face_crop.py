@@ -40,10 +40,15 @@ class FaceCrop:
 
         Where the photo is finer it is first reduced by area means, since linear interpolation would alias.
         """
+        top, bottom, left, right = window = self.window(values.shape)
+        return self.sampled_window(values[top:bottom, left:right], window)
+
+    def sampled_window(self, values: NDArray[Any], window: tuple[int, int, int, int]) -> FloatArray:
+        """The same for the part of a map that `window` names."""
         import cv2
 
-        top, bottom, left, right = self.window(values.shape)
-        cut = np.ascontiguousarray(values[top:bottom, left:right], np.float32)
+        top, bottom, left, right = window
+        cut = np.ascontiguousarray(values, np.float32)
         scale = min(1.0, 1.4 * self.scale)
         size = (max(1, round(cut.shape[1] * scale)), max(1, round(cut.shape[0] * scale)))
         if size != cut.shape[1::-1]:
@@ -67,7 +72,7 @@ class FaceCrop:
         faded = values * cv2.blur(fade, (_SOFTNESS, _SOFTNESS))[..., None]
         matrix = self.matrix.copy()
         matrix[:, 2] += matrix[:, :2] @ (left, top)
-        flags = cv2.INTER_CUBIC | cv2.WARP_INVERSE_MAP
+        flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
         return np.asarray(cv2.warpAffine(faded, matrix, (right - left, bottom - top), flags=flags), np.float32)
 
     def turned(self, vectors: FloatArray, back: bool = False) -> FloatArray:

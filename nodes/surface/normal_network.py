@@ -62,7 +62,7 @@ def shipped_weights() -> Weights:
 
 def network_input(crop: FaceCrop, photo: Image, surface: Surface, mask: Mask, light: Lighting) -> FloatArray:
     """What the network sees, float32 SIZE x SIZE x CHANNELS, every channel of about unit range."""
-    pixels = crop.sampled(_pixels(crop, photo))
+    pixels = _pixels(crop, photo)
     weight = crop.sampled(mask)
     covered = crop.sampled(surface.coverage)
     normals = crop.turned(crop.sampled(surface.normals))
@@ -113,11 +113,9 @@ def unshuffled(values: FloatArray) -> FloatArray:
 
 
 def _pixels(crop: FaceCrop, photo: Image) -> FloatArray:
-    """The photo as networks expect it, black beyond the crop's window."""
-    top, bottom, left, right = crop.window(photo.pixels.shape)
-    pixels = np.zeros_like(photo.pixels)
-    pixels[top:bottom, left:right] = network_pixels(photo.pixels[top:bottom, left:right], photo.encoding)
-    return pixels
+    """The crop of the photo as networks expect it, SIZE x SIZE x 3."""
+    top, bottom, left, right = window = crop.window(photo.pixels.shape)
+    return crop.sampled_window(network_pixels(photo.pixels[top:bottom, left:right], photo.encoding), window)
 
 
 def _shading(normals: FloatArray, light: Lighting) -> FloatArray:

@@ -14,6 +14,8 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.color import channel_mean, in_three_channels
+from graphface.nodes.strips import by_strips
 from graphface.nodes.surface.face_crop import INTEROCULAR, FaceCrop, face_crop
 from graphface.nodes.surface.normal_network import (
     COVERAGE,
@@ -24,6 +26,9 @@ from graphface.nodes.surface.normal_network import (
     shipped_weights,
 )
 from graphface.nodes.types import FloatArray, Image, Landmarks, Lighting, Mask, Segmentation, Surface
+
+_SHORTEST = 1e-3
+"""Length of a changed normal from which it has a direction."""
 
 _HAIR_REACH = 0.1
 """Inter-ocular distances."""
@@ -41,7 +46,7 @@ def refined(
     *,
     finer_than: Annotated[float, Field(gt=0, le=1)] = 0.12,
     strength: Annotated[float, Field(ge=0, le=2)] = 1.0,
-    mirrored: bool = True,
+    mirrored: bool = False,
 ) -> Surface:
     """The surface with normals that fit the picture; its depth, coverage and triangles stay.
 
@@ -57,7 +62,7 @@ def refined(
             is left out; 1 takes the whole correction. The fit's coarse shape is better on real faces than what a
             network makes of it that was taught by one family of heads.
         strength: factor of the correction.
-        mirrored: average with the correction of the mirrored picture.
+        mirrored: average with the correction of the mirrored picture, for twice the time; it gains nothing to speak of.
 
     Returns:
         Unit normals within the crop about the face (1.1 inter-ocular distances to each side of it), as they were
@@ -107,8 +112,18 @@ def _changed(surface: Surface, crop: FaceCrop, change: FloatArray) -> FloatArray
     top, bottom, left, right = window = crop.window(surface.coverage.shape)
     normals = surface.normals.copy()
     part = normals[top:bottom, left:right]
-    new = part + crop.unwarped(crop.turned(change, back=True), window)
-    length = np.sqrt(np.square(new).sum(axis=2, keepdims=True))
-    on = (surface.coverage[top:bottom, left:right, None] > 0) & (length > 1e-3)
-    np.copyto(part, new / np.maximum(length, np.float32(1e-3)), where=on)
+    added = crop.unwarped(crop.turned(change, back=True), window)
+
+    def strip(rows: slice) -> None:
+        new = part[rows] + added[rows]
+        length = np.sqrt(3 * channel_mean(new * new))
+        # Where there is no surface, or no direction left, the normal stays: the divisor is 1 and nothing is added.
+        off = (surface.coverage[top:bottom, left:right][rows] <= 0) | (length <= _SHORTEST)
+        if off.any():
+            np.copyto(new, part[rows], where=off[..., None])
+            length[off] = 1
+        new /= in_three_channels(np.asarray(length, np.float32))
+        part[rows] = new
+
+    by_strips(strip, part.shape)
     return normals
