@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+import typer
+
 from graphface.nodes.commands.bench.options import DATA, Csv, Data
 
+Symmetry = Annotated[
+    list[str] | None, typer.Option(metavar="PHOTOS", help="Files, folders or patterns: judge by these photographs.")
+]
 
-def light(data: Data = DATA, csv: Csv = None) -> None:
+
+def light(data: Data = DATA, csv: Csv = None, symmetry: Symmetry = None) -> None:
     """Error of the direction of light that is fitted, by order and robustness, with the CPU time of the fit.
 
     Data: the path-traced heads of truth/ under lights from one side. The light is fitted in the shipped
     representation, on the mesh's normals and on the true ones. Prints the mean angle to the true direction in degrees.
+    With --symmetry photographs judge instead: prints the mean difference between mirrored points of faces, in natural
+    logarithms, before and after the estimated shading is divided out, by what the light is fitted to.
     """
+    if symmetry:
+        _print_symmetry(symmetry, csv)
+        return
     from statistics import median
 
     from graphface.nodes.bench.light_truth import light_truth
@@ -28,4 +41,23 @@ def light(data: Data = DATA, csv: Csv = None) -> None:
         for ((order, robust), own), spent in zip(by_fit.items(), took, strict=True)
     ]
     print_table(("order", "robust", ">fitted normals, degrees", ">true normals, degrees", *TIME_HEADERS), rows)
+    write_csv(figures, csv)
+
+
+_SYMMETRY = ("side_before", "side_after", "points_before", "points_after")
+
+
+def _print_symmetry(photos: list[str], csv: Csv) -> None:
+    from graphface.nodes.bench.light_symmetry import light_symmetry
+    from graphface.nodes.commands.bench.figures import mean_of, write_csv
+    from graphface.nodes.commands.bench.options import files_of
+    from graphface.report.terminal import print_table
+
+    figures = list(light_symmetry(files_of(photos)))
+    rows = []
+    for variant in dict.fromkeys(f.variant for f in figures):
+        own = [f for f in figures if f.variant == variant]
+        means = (mean_of((getattr(f, name) for f in own), 3) for name in _SYMMETRY)
+        rows.append((variant, str(len(own)), *means))
+    print_table(("light fitted to", ">photos", ">sides before", ">after", ">points before", ">after"), rows)
     write_csv(figures, csv)

@@ -14,3 +14,14 @@ class TestBenchLight:
         assert all(0 <= float(angle) <= 180 for angle in (fitted, true))
         assert float(spent) > 0
         assert float(ratio) == 1
+
+    def test_symmetry(self, command, networks, tmp_path):
+        """With photographs, a row for each thing that the light may be fitted to."""
+        from PIL import Image
+        from skimage.data import astronaut
+
+        Image.fromarray(astronaut()).save(tmp_path / "a.png")
+        said = command("bench", "light", "--symmetry", tmp_path)
+        assert said.code == 0, said.err
+        assert "the face alone" in said.out
+        assert len(said.out.splitlines()) == 1 + 5
