@@ -41,10 +41,9 @@ def response(
         estimated: shading under the photo's estimated light, H x W or H x W x 3.
         photo, landmarks: without them all skin reflects in full.
         floor: least estimated shading that is divided by.
-        rougher: skin counts as noisy below the brightness, at most 0.25, where its texture is so many times that of
-            lit skin, each relative to its brightness. There added light counts in proportion to the brightness.
-            (Path-traced heads, two of another family, from photos under four side lights: 2 22.8, 3 23.0, not at all
-            23.0 dB. On photographs 2 and 3 look alike.)
+        rougher: skin counts as noisy below the brightness, at most 0.15, where its texture is so many times that of
+            lit skin, each relative to its brightness. There added light counts in proportion to the brightness. With 2 the
+            clean shadows of path-traced heads lose light as well; photographs look the same.
 
     Returns:
         H x W in [0, 1]: on skin 1, or less where it is dark and rough; elsewhere own / estimated, at most 1. If a tenth

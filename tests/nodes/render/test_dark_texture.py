@@ -36,11 +36,11 @@ class TestRoughBelow:
         """Skin has the same texture relative to its brightness in light and in shadow."""
         assert rough_below(half_in_shadow(0.13, 0), everywhere(), eyes(), 3) == 0
 
-    @pytest.mark.parametrize("dark", [0.05, 0.13, 0.21])
+    @pytest.mark.parametrize("dark", [0.05, 0.09, 0.13])
     def test_noise_is_found_where_it_is(self, dark):
         """The bound lies above the brightness of the noisy half."""
         found = rough_below(half_in_shadow(dark, 0.15 * dark), everywhere(), eyes(), 3)
-        assert dark < found <= dark + 0.06
+        assert dark < found <= 0.15
 
     def test_more_is_allowed_with_a_larger_factor(self):
         """`rougher` is a factor between the textures."""
@@ -60,4 +60,4 @@ class TestRoughBelow:
         together = Landmarks(np.zeros((68, 3), np.float32), "ibug68")
         assert rough_below(flat, everywhere(), eyes(), 3) == 0
         assert rough_below(half_in_shadow(0.1, 0.05), 0 * flat, eyes(), 3) == 0
-        assert 0 <= rough_below(half_in_shadow(0.1, 0.05), everywhere(), together, 3) <= 0.25
+        assert 0 <= rough_below(half_in_shadow(0.1, 0.05), everywhere(), together, 3) <= 0.15
