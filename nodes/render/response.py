@@ -42,8 +42,8 @@ def response(
         photo, landmarks: without them all skin reflects in full.
         floor: least estimated shading that is divided by.
         rougher: skin counts as noisy below the brightness, at most 0.15, where its texture is so many times that of
-            lit skin, each relative to its brightness. There added light counts in proportion to the brightness. With 2 the
-            clean shadows of path-traced heads lose light as well; photographs look the same.
+            lit skin, each relative to its brightness. There added light counts in proportion to the brightness. With 2
+            the clean shadows of path-traced heads lose light as well; photographs look the same.
 
     Returns:
         H x W in [0, 1]: on skin 1, or less where it is dark and rough; elsewhere own / estimated, at most 1. If a tenth
