@@ -20,7 +20,7 @@ from graphface.values.writing import beside, make_folder
 
 ASKED = {
     "photo": "working",
-    "surface": "head_surface",
+    "surface": "fitted_surface",
     "landmarks": "landmarks",
     "mask": "mask",
     "light": "light",
@@ -54,7 +54,7 @@ def lessons_of(folder: Path) -> Iterator[Lesson]:
     """
     from rich.progress import track
 
-    graph = load("represent", set={"refined.strength": 0.0})
+    graph = load("represent")
     paths = sorted(folder.glob("*.npz"))
     if not paths:
         raise UnreadableFile(folder, "holds no examples; `graphface models render` makes them")
