@@ -47,32 +47,26 @@ def convolved(cells: FloatArray, weights: Weights, layer: str) -> FloatArray:
     kernel, bias = weights[f"{layer}.weight"], weights[f"{layer}.bias"]
     size, _, inputs, outputs = kernel.shape
     height, width = cells.shape[:2]
-    if size == 1:
-        columns = cells.reshape(-1, inputs)
-    else:
-        margin = size // 2
-        padded = np.pad(cells, ((margin, margin), (margin, margin), (0, 0)))
-        columns = np.empty((height, width, size * size, inputs), np.float32)
-        for down in range(size):
-            for right in range(size):
-                columns[:, :, down * size + right] = padded[down : down + height, right : right + width]
-        columns = columns.reshape(-1, size * size * inputs)
-    found = _product(columns, kernel.reshape(-1, outputs))
-    found += bias
-    return found.reshape(height, width, outputs)
+    margin, row = size // 2, width + size - 1
+    # The padded cells as one long list. The neighbor at (down, right) of all cells is a slice of it, and needs no copy;
+    # the last columns of each row are the neighbors of none, and are cut off at the end.
+    padded = np.zeros(((height + size - 1) * row + size - 1, inputs), np.float32)
+    grid = padded[: (height + size - 1) * row].reshape(-1, row, inputs)
+    grid[margin : margin + height, margin : margin + width] = cells
+    steps = [(down * row + right, kernel[down, right]) for down in range(size) for right in range(size)]
+    found = np.empty((height * row, outputs), np.float32)
+    chunk = max(1, MULTIPLICATIONS // (inputs * outputs))
+    for start in range(0, len(found), chunk):
+        part = found[start : start + chunk]
+        part[...] = bias
+        for step, matrix in steps:
+            part += padded[start + step : start + step + len(part)] @ matrix
+    return np.ascontiguousarray(found.reshape(height, row, outputs)[:, :width])
 
 
 def relu(values: FloatArray) -> FloatArray:
     """Values below 0 become 0, in place."""
     return np.maximum(values, 0, out=values)
-
-
-def _product(rows: FloatArray, matrix: FloatArray) -> FloatArray:
-    step = max(1, MULTIPLICATIONS // matrix.size)
-    found = np.empty((len(rows), matrix.shape[1]), np.float32)
-    for start in range(0, len(rows), step):
-        np.matmul(rows[start : start + step], matrix, out=found[start : start + step])
-    return found
 
 
 def _average_pooled(cells: FloatArray) -> FloatArray:

@@ -114,6 +114,8 @@ def unshuffled(values: FloatArray) -> FloatArray:
 
 def _pixels(crop: FaceCrop, photo: Image) -> FloatArray:
     """The crop of the photo as networks expect it, SIZE x SIZE x 3."""
+    if photo.encoding == "srgb":
+        return network_pixels(crop.sampled(photo.pixels), photo.encoding)
     top, bottom, left, right = window = crop.window(photo.pixels.shape)
     return crop.sampled_window(network_pixels(photo.pixels[top:bottom, left:right], photo.encoding), window)
 

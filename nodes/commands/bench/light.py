@@ -44,9 +44,6 @@ def light(data: Data = DATA, csv: Csv = None, symmetry: Symmetry = None) -> None
     write_csv(figures, csv)
 
 
-_SYMMETRY = ("side_before", "side_after", "points_before", "points_after")
-
-
 def _print_symmetry(photos: list[str], csv: Csv) -> None:
     from graphface.nodes.bench.light_symmetry import light_symmetry
     from graphface.nodes.commands.bench.figures import mean_of, write_csv
@@ -57,7 +54,8 @@ def _print_symmetry(photos: list[str], csv: Csv) -> None:
     rows = []
     for variant in dict.fromkeys(f.variant for f in figures):
         own = [f for f in figures if f.variant == variant]
-        means = (mean_of((getattr(f, name) for f in own), 3) for name in _SYMMETRY)
-        rows.append((variant, str(len(own)), *means))
+        sides = (mean_of((f.side_before for f in own), 3), mean_of((f.side_after for f in own), 3))
+        points = (mean_of((f.points_before for f in own), 3), mean_of((f.points_after for f in own), 3))
+        rows.append((variant, str(len(own)), *sides, *points))
     print_table(("light fitted to", ">photos", ">sides before", ">after", ">points before", ">after"), rows)
     write_csv(figures, csv)
