@@ -1,2 +1,5 @@
-"""A mesh drawn into the picture (`rasterize`), face coordinates of pixels (`coordinates`) and visibility of vertices
-(`visibility`)."""
+"""A mesh drawn into the picture (`rasterize`), face coordinates of pixels (`coordinates`), visibility of vertices
+(`visibility`).
+
+`refined` fits the normals to the picture by a network (`normal_network`) that sees a crop about the face (`face_crop`).
+"""

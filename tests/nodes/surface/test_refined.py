@@ -11,16 +11,7 @@ from hypothesis import strategies as st
 from portraits import landmarks_at, portrait, surface_of
 
 from graphface.nodes.harmonics import ambient
-from graphface.nodes.surface.normal_network import (
-    CHANNELS,
-    COLORS,
-    NETWORK,
-    NormalWeights,
-    corrections,
-    mirror,
-    shipped_weights,
-    unshuffled,
-)
+from graphface.nodes.surface.normal_network import NormalWeights, shipped_weights
 from graphface.nodes.surface.refined import refined
 from graphface.nodes.types import Image, Lighting, Segmentation
 from graphface.testing import check_node
@@ -135,23 +126,8 @@ class TestRefined:
         """It is pure, deterministic and survives NaN."""
         check_node(refined, *case(60))
 
-
-class TestCorrections:
-    def test_the_mirrored_face_has_the_mirrored_correction(self, rng):
-        """Averaged with the mirrored picture, both sides are treated alike."""
-        seen = rng.normal(size=(128, 128, CHANNELS)).astype(np.float32) * np.float32(0.3)
-        found, other = (corrections(s, shipped_weights(), True) for s in (seen, mirror(seen)))
-        np.testing.assert_allclose(other[:, ::-1] * (-1, 1, 1), found, atol=1e-4)
-
     def test_weights_of_the_users_own(self):
         """A network of zero weights changes nothing."""
         before, *others = case(80)
         zeros = NormalWeights({name: np.zeros_like(values) for name, values in shipped_weights().items()})
         np.testing.assert_allclose(refined(before, *others, weights=zeros).normals, before.normals, atol=1e-5)
-
-    def test_channels(self):
-        """The four pixels of a cell stand together, channel by channel."""
-        values = np.arange(4 * 4 * CHANNELS, dtype=np.float32).reshape(4, 4, CHANNELS)
-        cells = unshuffled(values)
-        assert cells.shape[2] == NETWORK.channels
-        np.testing.assert_array_equal(cells[0, 0, :4], values[:2, :2, COLORS].ravel())
