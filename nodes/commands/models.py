@@ -121,7 +121,7 @@ def head(
     source: Annotated[Path, typer.Argument(help="ICT-FaceKit: its folder FaceXModel, or packed as .npz.")],
     data: Annotated[Path, typer.Option(help="Folder of ground truth; it holds truth/.")] = Path("../shared/data"),
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("head.safetensors"),
-    identity: Annotated[int, typer.Option(min=1, help="Identity components.")] = 20,
+    identity: Annotated[int, typer.Option(min=1, help="Identity components.")] = 10,
     triangles: Annotated[int, typer.Option(min=500, help="Approximate number.")] = 9000,
 ) -> None:
     """Reduce ICT-FaceKit to the head of render.fitted_head: the shipped one was made so."""
@@ -168,15 +168,15 @@ def render(
     head: Annotated[Path, typer.Option(help="Your copy of ICT-FaceKit (MIT): its folder FaceXModel, or packed.")],
     count: Annotated[int, typer.Option(min=1, help="Number of examples.")] = 100,
     seed: Annotated[int, typer.Option(min=0, help="Number of the first; each example depends on its number.")] = 0,
-    size: Annotated[int, typer.Option(min=16, max=1024, help="Pixels along a side.")] = 224,
-    samples: Annotated[int, typer.Option(min=1, help="Paths through a pixel; what is left of noise is filtered.")] = 4,
+    size: Annotated[int, typer.Option(min=16, max=1024, help="Pixels along a side.")] = 176,
+    samples: Annotated[int, typer.Option(min=1, help="Paths through a pixel; what is left of noise is filtered.")] = 3,
 ) -> None:
     """Render heads with everything known about them; needs graphface[truth].
 
     Each example is a random person (identity, expression, bumps and wrinkles that no model has, skin, make-up, stubble,
     hair), pose, lens, light and camera. NUMBER.npz holds `photo` (sRGB), `normals` (127 times the unit normal in the
-    camera frame), `depth` (inter-ocular distances), `labels` (0 rest, 1 skin, 2 eyes and teeth), `reaching` (255 times
-    the share of the first lamp that reaches a pixel) and `facts` (JSON: lights, pose, camera).
+    camera frame), `depth` (inter-ocular distances), `labels` (0 rest, 1 skin, 2 eyes and teeth), `visibility`
+    (255 times the share of the first lamp that reaches a pixel) and `facts` (JSON: lights, pose, camera).
 
     A run that was stopped goes on where it was. One process uses one core: start several, with seeds of their own.
     """

@@ -30,7 +30,7 @@ def fitted_head(
     width: Length = 0.15,
     noise: Length = 0.05,
     depth_noise: Length = 0.5,
-    identity: Annotated[int, Field(ge=0, le=1000)] = 20,
+    identity: Annotated[int, Field(ge=0, le=1000)] = 10,
 ) -> Mesh:
     """A head model (ICT-FaceKit, reduced) whose face follows the 468 points of FaceMesh on a face mesh.
 

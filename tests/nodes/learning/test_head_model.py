@@ -20,7 +20,7 @@ def test_the_shipped_head():
 
 def test_made_from_ict_facekit(shared):
     """The command's work on the real sources gives the shipped head."""
-    model = head_model(shared / "models/ict_facekit.npz", shared, identity=20, triangles=9000)
+    model = head_model(shared / "models/ict_facekit.npz", shared, identity=10, triangles=9000)
     shipped = builtin_head()
     assert model.triangles.shape == shipped.triangles.shape
     np.testing.assert_array_equal(model.triangles, shipped.triangles)
