@@ -12,6 +12,7 @@ import numpy as np
 
 from graphface import UnreadableFile, UnwritableFile
 from graphface.nodes.unet import Weights
+from graphface.values.writing import beside, make_folder
 
 
 @dataclass(frozen=True)
@@ -30,10 +31,6 @@ class Network:
     channels: int
     command: str
 
-    @property
-    def kind(self) -> str:
-        return self.name.split()[0]
-
 
 def read_network(path: Path, network: Network) -> Weights:
     """Weights as `write_network` writes them, as float32.
@@ -50,7 +47,7 @@ def read_network(path: Path, network: Network) -> Weights:
         card = json.loads(card_path.read_text(encoding="utf-8"))
     except FileNotFoundError as error:
         missing = error.filename or path
-        reason = f"no such file; {network.kind} weights are NAME.safetensors and NAME.json"
+        reason = f"no such file; the weights of a {network.name} are NAME.safetensors and NAME.json"
         raise UnreadableFile(missing, reason) from None
     except (OSError, ValueError, SafetensorError) as error:
         raise UnreadableFile(path, f"not the weights of a {network.name}: {error}") from error
@@ -73,15 +70,16 @@ def write_network(weights: Mapping[str, Any], card: Mapping[str, Any], path: Pat
     from safetensors.numpy import save_file
 
     if path.suffix != ".safetensors":
-        raise UnwritableFile(path, f"{network.kind} weights are written as NAME.safetensors (and NAME.json)")
+        raise UnwritableFile(path, f"the weights of a {network.name} are written as NAME.safetensors (and NAME.json)")
     tensors = {
         name: np.ascontiguousarray(values, np.float16 if name.endswith("weight") else np.float32)
         for name, values in sorted(weights.items())
     }
     told = json.dumps({"format": network.format, **card}, indent=2) + "\n"
+    make_folder(path.parent)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        save_file(tensors, path)
-        path.with_suffix(".json").write_text(told, encoding="utf-8")
+        with beside(path) as weights_file, beside(path.with_suffix(".json")) as card_file:
+            save_file(tensors, weights_file)
+            card_file.write_text(told, encoding="utf-8")
     except OSError as error:
         raise UnwritableFile(path, error.strerror or str(error)) from error

@@ -6,27 +6,20 @@ points after the picture was divided by its estimated shading is light that was 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphface import Evaluator, GraphfaceError, MemoryTier, load, warn
+from graphface.nodes.bench.known_lights import Variant
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean
 from graphface.nodes.types import FloatArray, Mesh
 
-VARIANTS: dict[str, dict[str, Any]] = {
-    "as shipped": {},
-    "the face alone": {"lit.beyond": 0.0},
-    "all skin of the head alike": {"lit.beyond": 1.0},
-    "Huber's fit": {"light.robust": "huber"},
-    "plain least squares": {"light.robust": "none"},
-}
-"""Parameters of represent.yaml by name."""
+_OUTPUTS = ("face.working", "face.estimated", "face.mesh")
 
 _BLUR = 0.06
 """Standard deviation, in inter-ocular distances: larger than moles and strands."""
@@ -55,20 +48,18 @@ class SideFigure:
     points_after: float
 
 
-def light_symmetry(
-    photos: Iterable[Path], variants: Mapping[str, Mapping[str, Any]] = VARIANTS
-) -> Iterator[SideFigure]:
-    """Every variant on every photo in which a face is found that shows both sides."""
-    graphs = {name: load("represent", set=set_) for name, set_ in variants.items()}
+def light_symmetry(photos: Iterable[Path], variants: Sequence[Variant]) -> Iterator[SideFigure]:
+    """Every variant of the relight graph on every photo with a face that shows both sides."""
+    graphs = {v.name: load("relight", replace=v.replace, set=v.set) for v in variants}
     for path in photos:
         evaluator = Evaluator(memory=MemoryTier())
         for name, graph in graphs.items():
             try:
-                found = graph.run(["working", "estimated", "mesh"], evaluator=evaluator, photo=path)
+                photo, shading, mesh = graph.run(_OUTPUTS, evaluator=evaluator, photo=path).values()
             except GraphfaceError as error:
                 warn(f"{path.name} is left out: {error}")
                 break
-            compared = _sides(channel_mean(found["working"].pixels), channel_mean(found["estimated"]), found["mesh"])
+            compared = _sides(channel_mean(photo.pixels), channel_mean(shading), mesh)
             if compared is None:
                 warn(f"{path.name} is left out: the face hardly shows both sides")
                 break

@@ -78,6 +78,6 @@ def light_truth(
 
 def _fitted(graph: Graph, head: Head, light: str, evaluator: MeteredEvaluator) -> tuple[FloatArray, float]:
     """The direction of the light, and the CPU milliseconds of its fit."""
-    given = ("intrinsic", "fitted_surface", "lit")
+    given = ("intrinsic", "fitted_surface", "light_mask")
     found = graph.run([*given, _FOUND], evaluator=evaluator, photo=head.path(light))[_FOUND]
     return found, evaluator.cpu_ms(evaluator.key(_FOUND), [evaluator.key(node) for node in given])

@@ -24,7 +24,7 @@ _SLOPES = 0.5
 """Weight of the error's differences between neighboring pixels, beside the error."""
 
 _KEPT_BACK = 12
-"""Every so manieth example is not learned from but measured on."""
+"""Every twelfth example is kept back: nothing is learned from it, the network is measured on it."""
 
 _MIRRORED = [NORMALS, LIGHT, PLACE]
 

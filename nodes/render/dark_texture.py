@@ -1,9 +1,8 @@
 """How much light dark skin takes before what lies in it shows: noise, the blocks of a JPEG file, crushed blacks.
 
-Skin has the same texture relative to its brightness whether it is lit or in shadow. In a photograph the texture of
-dark pixels is several times stronger: to what the skin has, the camera and its file add noise and blocks, and a steep
-tone curve contrast. Light that is added there multiplies all of it. So each photo is asked how strong its texture is at
-each brightness. A path-traced head, or a clean photo, takes all the light.
+Relative to its brightness, skin has the same texture in light and in shadow. Dark pixels of a photograph often have
+several times as much: noise, the blocks of the file, the contrast of a steep tone curve. Added light multiplies all
+three. So the texture of each photo is measured by brightness. Path-traced heads and clean photos take all the light.
 """
 
 from __future__ import annotations

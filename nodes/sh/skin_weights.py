@@ -17,9 +17,9 @@ def skin_weights(
 ) -> Mask:
     """Weights of the pixels for `sh.fit`: 1 on the face, less on the skin of ears, neck and scalp.
 
-    The middle of a face has few normals that look aside, and its albedo is not even: lids, lips and stubble are darker.
-    Light that is fitted to it alone has too much contrast on some faces. Neck and ears are more often in shadow, so
-    they count less.
+    Most normals of a face point to the camera, and lids, lips and stubble are darker than the rest: a light that is
+    fitted to the face alone takes them for shading, and comes out too directional. Ears and neck show other normals
+    and even skin. They are more often in shadow, so they count less.
 
     Args:
         mask: the face by its geometry. head: the fitted head by its geometry. labels: where skin is.

@@ -34,9 +34,6 @@ OF_PICTURE = (*range(COLORS, NORMALS), *range(SHADING, PLACE))
 NETWORK = Network("graphface-normals-1", "normals network", WIDTHS, 4 * CHANNELS, "graphface models normals")
 
 
-_MIRRORED = (NORMALS, LIGHT, PLACE)
-"""Channels that change their sign in a mirror."""
-
 _BRIGHTEST = 3.0
 """Colors and shading relative to the face's mean are clipped to this."""
 
@@ -89,20 +86,9 @@ def network_input(crop: FaceCrop, photo: Image, surface: Surface, mask: Mask, li
     return np.concatenate(channels, axis=2, dtype=np.float32)
 
 
-def corrections(seen: FloatArray, weights: Weights, mirrored: bool) -> FloatArray:
+def corrections(seen: FloatArray, weights: Weights) -> FloatArray:
     """What is to be added to the crop's normals, float32 SIZE x SIZE x 3, in the crop's axes."""
-    found = unet(unshuffled(seen), weights, len(WIDTHS))
-    if mirrored:
-        other = unet(unshuffled(mirror(seen)), weights, len(WIDTHS))[:, ::-1] * np.array([-1, 1, 1], np.float32)
-        found = np.asarray((found + other) * np.float32(0.5), np.float32)
-    return found
-
-
-def mirror(seen: FloatArray) -> FloatArray:
-    """The input of the mirrored picture."""
-    turned = seen[:, ::-1].copy()
-    turned[..., _MIRRORED] *= -1
-    return turned
+    return unet(unshuffled(seen), weights, len(WIDTHS))
 
 
 def unshuffled(values: FloatArray) -> FloatArray:

@@ -1,8 +1,8 @@
 """Normals of a fitted head, refined from the picture.
 
-A fitted model has not the wings of this nose, the folds and lids of this face. The picture shows them, but not apart
-from pigment and light. A small network learned on path-traced heads what the light on a face says about its relief
-(see `normal_network` and the card beside the weights).
+A fitted model lacks the wings of this person's nose, the lids and the folds. The picture shows them, mixed with pigment
+and light. A small network has learned from path-traced heads what shading says about relief (see `normal_network` and
+the card beside the weights).
 """
 
 from __future__ import annotations
@@ -46,7 +46,6 @@ def refined(
     *,
     finer_than: Annotated[float, Field(gt=0, le=1)] = 0.12,
     strength: Annotated[float, Field(ge=0, le=2)] = 1.0,
-    mirrored: bool = False,
 ) -> Surface:
     """The surface with normals that fit the picture; its depth, coverage and triangles stay.
 
@@ -62,7 +61,6 @@ def refined(
             is left out; 1 takes the whole correction. The fit's coarse shape is better on real faces than what a
             network makes of it that was taught by one family of heads.
         strength: factor of the correction.
-        mirrored: average with the correction of the mirrored picture, for twice the time; it gains nothing to speak of.
 
     Returns:
         Unit normals within the crop about the face (1.1 inter-ocular distances to each side of it), as they were
@@ -76,7 +74,7 @@ def refined(
         return surface
     seen = network_input(crop, photo, surface, mask, light)
     arrays = shipped_weights() if weights is None else weights.arrays
-    change = np.float32(strength) * _fine(corrections(seen, arrays, mirrored), seen, finer_than)
+    change = np.float32(strength) * _fine(corrections(seen, arrays), seen, finer_than)
     if labels is not None:
         change *= _off_hair(crop.sampled(labels.hair))
     return replace(surface, normals=_changed(surface, crop, change))

@@ -19,7 +19,7 @@ def light(data: Data = DATA, csv: Csv = None, symmetry: Symmetry = None) -> None
     Data: the path-traced heads of truth/ under lights from one side. The light is fitted in the shipped
     representation, on the mesh's normals and on the true ones. Prints the mean angle to the true direction in degrees.
     With --symmetry photographs judge instead: prints the mean difference between mirrored points of faces, in natural
-    logarithms, before and after the estimated shading is divided out, by what the light is fitted to.
+    logarithms, before and after the estimated shading is divided out, for some variants of `bench lights`.
     """
     if symmetry:
         _print_symmetry(symmetry, csv)
@@ -44,18 +44,22 @@ def light(data: Data = DATA, csv: Csv = None, symmetry: Symmetry = None) -> None
     write_csv(figures, csv)
 
 
+_VARIANTS = ("as shipped", "light by the face alone", "light by Huber's fit", "light by plain least squares")
+
+
 def _print_symmetry(photos: list[str], csv: Csv) -> None:
+    from graphface.nodes.bench.known_lights import chosen_variants
     from graphface.nodes.bench.light_symmetry import light_symmetry
     from graphface.nodes.commands.bench.figures import mean_of, write_csv
     from graphface.nodes.commands.bench.options import files_of
     from graphface.report.terminal import print_table
 
-    figures = list(light_symmetry(files_of(photos)))
+    figures = list(light_symmetry(files_of(photos), chosen_variants(_VARIANTS)))
     rows = []
     for variant in dict.fromkeys(f.variant for f in figures):
         own = [f for f in figures if f.variant == variant]
         sides = (mean_of((f.side_before for f in own), 3), mean_of((f.side_after for f in own), 3))
         points = (mean_of((f.points_before for f in own), 3), mean_of((f.points_after for f in own), 3))
         rows.append((variant, str(len(own)), *sides, *points))
-    print_table(("light fitted to", ">photos", ">sides before", ">after", ">points before", ">after"), rows)
+    print_table(("variant", ">photos", ">sides before", ">after", ">points before", ">after"), rows)
     write_csv(figures, csv)

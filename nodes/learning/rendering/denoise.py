@@ -23,19 +23,23 @@ _FIREFLY = 4.0
 
 
 def denoised(
-    radiance: FloatArray, albedo: FloatArray, normals: Normals, reaching: NDArray[np.uint8], covered: NDArray[np.bool_]
+    radiance: FloatArray,
+    albedo: FloatArray,
+    normals: Normals,
+    visibility: NDArray[np.uint8],
+    covered: NDArray[np.bool_],
 ) -> FloatArray:
     """Radiance H x W x 3 without noise; the background is blurred.
 
     Args:
-        albedo: H x W x 3, linear. reaching: 255 times the lamp's visible share. covered: where the head is.
+        albedo: H x W x 3, linear. visibility: 255 times the lamp's visible share. covered: where the head is.
     """
     import cv2
 
     light = radiance / (albedo + np.float32(_SHEEN))
     median = np.stack([cv2.medianBlur(np.ascontiguousarray(light[..., k]), 5) for k in range(3)], axis=2)
     light = np.minimum(light, _FIREFLY * median + 1e-3)
-    guide = np.stack([normals[..., 0], normals[..., 1], reaching.astype(np.float32) / 255], axis=2)
+    guide = np.stack([normals[..., 0], normals[..., 1], visibility.astype(np.float32) / 255], axis=2)
     smooth = cv2.ximgproc.guidedFilter(guide, np.ascontiguousarray(light, np.float32), _RADIUS, _EPSILON)
     inside = cv2.erode(covered.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(np.float32)
     head = np.where(inside[..., None] > 0, smooth, light) * (albedo + np.float32(_SHEEN))

@@ -29,7 +29,7 @@ class Example:
         normals: int8 H x W x 3, 127 times the unit normal in the camera frame; 0 beyond the head.
         depth: float16 H x W, towards the camera, in inter-ocular distances; 0 beyond the head.
         labels: uint8 H x W, REST, BARE_SKIN or EYES_AND_TEETH.
-        reaching: uint8 H x W, 255 times the share of the first lamp that nothing stands before.
+        visibility: uint8 H x W, 255 times the share of the first lamp that nothing stands before.
         facts: seed, lights, pose, expression and camera, as JSON holds them.
     """
 
@@ -37,7 +37,7 @@ class Example:
     normals: NDArray[np.int8]
     depth: NDArray[np.float16]
     labels: NDArray[np.uint8]
-    reaching: NDArray[np.uint8]
+    visibility: NDArray[np.uint8]
     facts: dict[str, Any]
 
 
@@ -54,7 +54,7 @@ def write_example(example: Example, path: Path) -> None:
             normals=example.normals,
             depth=example.depth,
             labels=example.labels,
-            reaching=example.reaching,
+            visibility=example.visibility,
             facts=np.array(json.dumps(example.facts)),
         )
 
@@ -65,7 +65,7 @@ def read_example(path: Path) -> Example:
     Raises:
         UnreadableFile: it is missing, damaged or of another format.
     """
-    names = ("photo", "normals", "depth", "labels", "reaching")
+    names = ("photo", "normals", "depth", "labels", "visibility")
     try:
         with np.load(path, allow_pickle=False) as file:
             facts = json.loads(str(file["facts"]))

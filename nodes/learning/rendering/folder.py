@@ -15,9 +15,7 @@ def example_path(folder: Path, seed: int) -> Path:
     return folder / f"{seed:07d}.npz"
 
 
-def render_folder(
-    head: Path, folder: Path, seeds: range, *, size: int = 224, samples: int = 4
-) -> Iterator[tuple[int, bool]]:
+def render_folder(head: Path, folder: Path, seeds: range, *, size: int, samples: int) -> Iterator[tuple[int, bool]]:
     """Render the example of each seed that is not there yet; yields (seed, whether it had to be rendered).
 
     An example depends on its seed alone. So a run that was stopped goes on where it was, and several processes may

@@ -19,10 +19,10 @@ from graphface.nodes.render.depth_buffer import disc, visible_share
 from graphface.nodes.types import FloatArray, Mesh, Surface
 
 _SHADOW_POINTS, _SHADOW_TEXELS, _SHADOW_BIAS = 4, 400, 0.012
-"""Of the depth buffers behind `reaching`; the bias in inter-ocular distances."""
+"""Of the depth buffers behind `visibility`; the bias in inter-ocular distances."""
 
 
-def make_example(model: HeadModel, seed: int, *, size: int = 224, samples: int = 4) -> Example:
+def make_example(model: HeadModel, seed: int, *, size: int, samples: int) -> Example:
     """The example of a seed: a random head, pose, light and camera.
 
     Args:
@@ -43,9 +43,9 @@ def make_example(model: HeadModel, seed: int, *, size: int = 224, samples: int =
     mesh = view.mesh(body.vertices, body.triangles, body.normals, eyes)
     surface = rasterized(mesh, (size, size), smoothing=0.0)
     labels = _labels(surface, mesh, part, hair)
-    reaching = _reaching(mesh, surface, view, lights)
+    visibility = _visibility(mesh, surface, view, lights)
     albedo = _interpolated(body.albedo, surface, mesh)
-    radiance = denoised(noisy, albedo, surface.normals, reaching, surface.coverage > 0)
+    radiance = denoised(noisy, albedo, surface.normals, visibility, surface.coverage > 0)
     facts = {
         "format": FORMAT,
         "seed": seed,
@@ -62,7 +62,7 @@ def make_example(model: HeadModel, seed: int, *, size: int = 224, samples: int =
         normals=np.round(surface.normals * 127).astype(np.int8),
         depth=(surface.depth / mesh.interocular).astype(np.float16),
         labels=labels,
-        reaching=reaching,
+        visibility=visibility,
         facts=facts,
     )
 
@@ -153,10 +153,10 @@ def _labels(surface: Surface, mesh: Mesh, part: NDArray[np.int8], hair: NDArray[
     return labels
 
 
-def _reaching(mesh: Mesh, surface: Surface, view: View, lights: Lights) -> NDArray[np.uint8]:
+def _visibility(mesh: Mesh, surface: Surface, view: View, lights: Lights) -> NDArray[np.uint8]:
     """255 times the share of the first lamp that reaches each pixel, by depth buffers of the true head."""
     shape = surface.coverage.shape
-    reaching = np.zeros(shape, np.uint8)
+    visibility = np.zeros(shape, np.uint8)
     covered = surface.coverage > 0
     lamp, unit = lights.lamps[0], mesh.interocular
     middle = view.origin - view.axes[2] * view.distance
@@ -174,5 +174,5 @@ def _reaching(mesh: Mesh, surface: Surface, view: View, lights: Lights) -> NDArr
         resolution=_SHADOW_TEXELS,
         bias=_SHADOW_BIAS,
     )
-    reaching[covered] = np.round(share * 255)
-    return reaching
+    visibility[covered] = np.round(share * 255)
+    return visibility

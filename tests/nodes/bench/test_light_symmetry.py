@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from skimage.data import astronaut
 
+from graphface.nodes.bench.known_lights import Variant
 from graphface.nodes.bench.light_symmetry import light_symmetry
 from graphface.nodes.io.image_write import write_picture
 
@@ -26,10 +27,10 @@ def photos(networks, tmp_path):
 class TestLightSymmetry:
     def test_light_of_one_side_is_taken_out(self, photos):
         """Most of what a darkened side adds is gone after division; even light takes nothing out."""
-        variants = {"first": {}, "even": {"light.order": 0}}
+        variants = [Variant("first"), Variant("even", set={"face/light.order": 0})]
         with pytest.warns(match=r"c\.png is left out"):
             found = {(f.variant, f.photo): f for f in light_symmetry(photos, variants)}
-        assert set(found) == {(v, p) for v in variants for p in ("a.png", "b.png")}
+        assert set(found) == {(v, p) for v in ("first", "even") for p in ("a.png", "b.png")}
         even, first = found["even", "b.png"], found["first", "b.png"]
         assert even.side_after == pytest.approx(even.side_before, abs=0.02)
         assert first.side_before > found["first", "a.png"].side_before

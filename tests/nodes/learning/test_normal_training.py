@@ -27,4 +27,4 @@ class TestTrained:
         )
         expected = net(cells)[0].detach().numpy().transpose(1, 2, 0)
         weights = {name: values.astype(np.float32) for name, values in folded(state).items()}
-        np.testing.assert_allclose(corrections(seen[0].astype(np.float32), weights, False), expected, atol=0.02)
+        np.testing.assert_allclose(corrections(seen[0].astype(np.float32), weights), expected, atol=0.02)

@@ -56,6 +56,13 @@ class TestComposite:
             np.testing.assert_allclose(mixed[2, 7], 0.4)
             np.testing.assert_allclose(mixed[2, 8], 0.5 if labels else 0.8)
 
+    def test_response_counts_without_labels(self):
+        """A scene that lights all like the face still adds less to what reflects less, and takes away in full."""
+        half = np.full(SHAPE, 0.5, np.float32)
+        scene = Scene(background=1, hair=0)
+        np.testing.assert_allclose(composite(OLD, NEW, scene, response=half), 0.6, atol=1e-6)
+        np.testing.assert_allclose(composite(NEW, OLD, scene, response=half), 0.4, atol=1e-6)
+
     def test_an_unchanged_light_changes_nothing(self):
         """Whatever the labels."""
         scene = Scene(background=0.25, hair=0.5)

@@ -16,7 +16,6 @@ from graphface.nodes.surface.normal_network import (
     NORMALS,
     SHADING,
     corrections,
-    mirror,
     network_input,
     shipped_weights,
     unshuffled,
@@ -50,11 +49,11 @@ class TestNetworkInput:
 
 
 class TestCorrections:
-    def test_the_mirrored_face_has_the_mirrored_correction(self, rng):
-        """Averaged with the mirrored picture, both sides are treated alike."""
-        seen = rng.normal(size=(128, 128, CHANNELS)).astype(np.float32) * np.float32(0.3)
-        found, other = (corrections(s, shipped_weights(), True) for s in (seen, mirror(seen)))
-        np.testing.assert_allclose(other[:, ::-1] * (-1, 1, 1), found, atol=1e-4)
+    def test_shipped_weights(self):
+        """The weights that come with the package fit the network; on an even picture they change normals little."""
+        change = corrections(seen_of(0.5), shipped_weights())
+        assert change.shape == (SIZE, SIZE, 3)
+        assert 0 < np.abs(change).mean() < 0.3
 
 
 class TestUnshuffled:

@@ -23,5 +23,5 @@ class TestBenchLight:
         Image.fromarray(astronaut()).save(tmp_path / "a.png")
         said = command("bench", "light", "--symmetry", tmp_path)
         assert said.code == 0, said.err
-        assert "the face alone" in said.out
-        assert len(said.out.splitlines()) == 1 + 5
+        assert "light by the face alone" in said.out
+        assert len(said.out.splitlines()) == 1 + 4

@@ -33,7 +33,7 @@ class TestFiles:
         np.savez(tmp_path / "a.npz", photo=np.zeros(3))
         with pytest.raises(UnreadableFile, match="not an example"):
             read_example(tmp_path / "a.npz")
-        arrays = {name: np.zeros(1) for name in ("photo", "normals", "depth", "labels", "reaching")}
+        arrays = {name: np.zeros(1) for name in ("photo", "normals", "depth", "labels", "visibility")}
         np.savez(tmp_path / "b.npz", **arrays, facts=np.array(json.dumps({"format": "other"})))
         with pytest.raises(UnreadableFile, match="format"):
             read_example(tmp_path / "b.npz")

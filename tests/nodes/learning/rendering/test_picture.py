@@ -20,5 +20,5 @@ class TestMakeExample:
         assert abs(lengths - 127).max() < 2
         assert (found.labels == BARE_SKIN).mean() > 0.2
         assert (found.labels == EYES_AND_TEETH).any()
-        assert found.reaching[on].mean() > 60
+        assert found.visibility[on].mean() > 60
         assert found.photo[on].mean() > 20
