@@ -24,10 +24,10 @@ def skin_weights(
     Args:
         mask: the face by its geometry. head: the fitted head by its geometry. labels: where skin is.
         beyond: weight of the head's other skin. (From photos under four side lights, two path-traced heads of another
-            family: 0 23.0, 0.2 23.2 dB. Frontally 27.3 and 27.5, under even light 31.0 and 31.9 dB; heads made from
-            the same model as the fitted head 29.1 and 28.7 dB. What is left of the differences between mirrored points
-            of 116 photographed faces, in the logarithm: 0.149 and 0.142, and with 1 0.144; `graphface bench light
-            --symmetry`. Yale faces lit from the side, relit frontally: squared error 0.0131 and 0.0136.)
+            family: 0 23.1, 0.2 23.3 dB. Frontally 27.4 and 27.6, under even light 31.0 and 31.9 dB; heads made from
+            the same model as the fitted head 29.5 and 29.1 dB. What is left of the differences between mirrored points
+            of 116 photographed faces, in the logarithm: 0.145 and 0.138, and with 1 0.141; `graphface bench light
+            --symmetry`. Yale faces lit from the side, relit frontally: squared error 0.0133 and 0.0138.)
     """
     skin = np.minimum(labels.face, head)
     skin *= np.float32(beyond)
