@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -54,9 +54,7 @@ class Pictures:
 
     def chosen(self, indices: NDArray[np.int64]) -> list[NDArray[np.float32]]:
         """The five arrays of some lessons, float32 (n, S, S, channels)."""
-        own = (
-            part[indices].astype(np.float32) for part in (self.seen, self.normals, self.weight, self.shadow, self.lit)
-        )
+        own = [getattr(self, part.name)[indices].astype(np.float32) for part in fields(self)]
         return [part if part.ndim == 4 else part[..., None] for part in own]
 
 

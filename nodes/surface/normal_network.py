@@ -1,4 +1,4 @@
-"""The network that refines normals and finds cast shadows: a small U-Net (`graphface.nodes.unet`) on the crop of a face.
+"""The network that refines normals and finds cast shadows: a small U-Net (`graphface.nodes.unet`) on a face's crop.
 
 It sees the picture, the fitted normals, the face mask, and what the estimated light makes of the fitted normals. It
 gives what has to be added to the normals, and where something stands before the strongest lamp. It was learned from
