@@ -54,6 +54,7 @@ VARIANTS = (
     Variant("light by plain least squares", set={"face/light.robust": "none"}),
     Variant("light by Huber's fit", set={"face/light.robust": "huber"}),
     Variant("normals of the fitted head", set={"face/refined.strength": 0.0}),
+    Variant("cast shadows of the photo left in", set={"face/estimated.strength": 0.0}),
     Variant("light by the face alone", set={"face/light_mask.beyond": 0.0}),
     Variant("shading not below 0.15", set={"face/intrinsic.floor": 0.15}),
     Variant("second-order SH", set={"face/light.order": 2}),
