@@ -22,7 +22,7 @@ YALE_LIGHTS = (
     *("A+025E+00", "A-025E+00", "A+050E+00", "A-050E+00"),
     *("A+070E+00", "A-070E+00", "A+000E+45", "A+000E-20"),
 )
-_FRONTAL = "A+000E+00"
+YALE_FRONTAL = "A+000E+00"
 _BORDER = 96
 """Pixels put around the Yale crops, which are too tight for a face detector."""
 
@@ -67,8 +67,8 @@ def head_cases(data: Path, source: str = LIGHTS[0]) -> Iterator[Case]:
                 yield Case(head.name, light, photo, scene, head.photo(light).pixels, head.face)
 
 
-def yale_cases(data: Path, every: int = 1) -> Iterator[Case]:
-    """The people of `data`/yaleb (every n-th), from the frontal light to eight others, compared over the whole crop.
+def yale_cases(data: Path, every: int = 1, source: str = YALE_FRONTAL) -> Iterator[Case]:
+    """The people of `data`/yaleb (every n-th), from one light to the others, compared over the whole crop.
 
     Raises:
         UnreadableFile: there are no people at `data`.
@@ -76,17 +76,17 @@ def yale_cases(data: Path, every: int = 1) -> Iterator[Case]:
     people = sorted(path for path in (data / "yaleb").glob("yaleB*") if path.is_dir())[::every]
     if not people:
         raise UnreadableFile(data / "yaleb", "holds no people (folders yaleB01 ...)")
-    for person in people:
-        pixels = read_image(person / f"{person.name}_P00{_FRONTAL}.png").pixels
+    for person in (p for p in people if (p / f"{p.name}_P00{source}.png").exists()):
+        pixels = read_image(person / f"{person.name}_P00{source}.png").pixels
         padded = np.full((pixels.shape[0] + 2 * _BORDER, pixels.shape[1] + 2 * _BORDER, 3), _GREY, np.float32)
         padded[_BORDER:-_BORDER, _BORDER:-_BORDER] = pixels
         photo = Image(padded, encoding="linear")
-        for light in YALE_LIGHTS:
+        for light in (YALE_FRONTAL, *YALE_LIGHTS) if source != YALE_FRONTAL else YALE_LIGHTS:
             path = person / f"{person.name}_P00{light}.png"
-            if path.exists():
+            if path.exists() and light != source:
                 truth = read_image(path).pixels
                 everywhere = np.ones(truth.shape[:2], np.float32)
-                yield Case(person.name, light, photo, partial(_yale_scene, light), truth, everywhere, _BORDER)
+                yield Case(person.name, light, photo, partial(_yale_scene, source, light), truth, everywhere, _BORDER)
 
 
 def yale_scene(name: str, unit: float = 1.0) -> Scene:
@@ -101,6 +101,6 @@ def _head_scene(head: Head, source: str, light: str, normals: FloatArray) -> Sce
     return known_scene(head.lights[light], max(unit, _LEAST_UNIT))
 
 
-def _yale_scene(light: str, normals: FloatArray) -> Scene:
-    unit = float(irradiance(yale_scene(_FRONTAL), normals).mean())
+def _yale_scene(source: str, light: str, normals: FloatArray) -> Scene:
+    unit = float(irradiance(yale_scene(source), normals).mean())
     return yale_scene(light, max(unit, _LEAST_UNIT))

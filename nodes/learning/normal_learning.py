@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +34,7 @@ def learn_normals(folder: Path, *, minutes: float, threads: int = 1) -> tuple[di
     if len(lessons) < 2:
         raise UnreadableFile(folder, "holds no two examples in which a face is found")
     pictures = Pictures(
-        *(np.stack([getattr(lesson, part) for lesson in lessons]) for part in ("seen", "normals", "weight"))
+        **{part.name: np.stack([getattr(lesson, part.name) for lesson in lessons]) for part in fields(Lesson)}
     )
     state, figures = trained(pictures, minutes=minutes, threads=threads)
     return folded(state), {"examples": len(lessons), **figures}

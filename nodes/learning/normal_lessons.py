@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from graphface import Evaluator, Graph, GraphfaceError, MemoryTier, UnreadableFile, load
 from graphface.fingerprint import fingerprint
 from graphface.nodes.learning.rendering.example import BARE_SKIN, EYES_AND_TEETH, Example, read_example
-from graphface.nodes.surface.face_crop import SIZE, face_crop
+from graphface.nodes.surface.face_crop import SIZE, FaceCrop, face_crop
 from graphface.nodes.surface.normal_network import COVERAGE, network_input
-from graphface.nodes.types import Image
+from graphface.nodes.types import FloatArray, Image
 from graphface.values.writing import beside, make_folder
 
 ASKED = {
@@ -30,17 +30,28 @@ ASKED = {
 _INTERIOR = 0.25
 """Weight of eyes and teeth, which few pixels show and which the mesh has not."""
 
+_INSIDE = 0.9
+"""Share of skin in a pixel from which its shadow counts."""
+
 _EDGE = 4
 """Pixels along the edge of skin that nothing is learned from."""
 
 
 @dataclass(frozen=True)
 class Lesson:
-    """float16: `seen` SIZE x SIZE x CHANNELS, `normals` SIZE x SIZE x 3 and `weight` SIZE x SIZE."""
+    """What is seen and what is true on the crop, float16.
+
+    Attributes:
+        seen: SIZE x SIZE x CHANNELS.
+        normals: SIZE x SIZE x 3; `weight`, SIZE x SIZE, is what an error counts there.
+        shadow: SIZE x SIZE, 1 where something stands before the first lamp; `lit` is what an error counts there.
+    """
 
     seen: NDArray[np.float16]
     normals: NDArray[np.float16]
     weight: NDArray[np.float16]
+    shadow: NDArray[np.float16]
+    lit: NDArray[np.float16]
 
 
 def lessons_of(folder: Path) -> Iterator[Lesson]:
@@ -91,7 +102,23 @@ def lesson_of(example: Example, graph: Graph) -> Lesson:
     # Beside hair, which stands off the scalp like a step, the skin's own normals are those of the step.
     known = cv2.erode(known.astype(np.uint8), np.ones((2 * _EDGE + 1, 2 * _EDGE + 1), np.uint8)) > 0
     weight = np.where(skin > 0.5, skin, _INTERIOR * inner) * known
-    return Lesson(*(np.asarray(part, np.float16) for part in (seen, normals, weight)))
+    shadow, lit = shadow_of(example, crop)
+    return Lesson(*(np.asarray(part, np.float16) for part in (seen, normals, weight, shadow, lit)))
+
+
+def shadow_of(example: Example, crop: FaceCrop) -> tuple[FloatArray, FloatArray]:
+    """Where something stands before the first lamp, and what an error counts there, SIZE x SIZE each.
+
+    What is turned away from the lamp is dark in any case, and counts little. Even light has no shadow to be found.
+    """
+    skin = crop.sampled((example.labels == BARE_SKIN).astype(np.float32))
+    lights = example.facts["lights"]
+    if lights["kind"] == "even":
+        return np.zeros_like(skin), np.asarray(skin > _INSIDE, np.float32)
+    towards = np.array(lights["lamps"][0]["direction"], np.float32)
+    facing = np.clip(example.normals.astype(np.float32) / 127 @ towards, 0, 1)
+    shadow = crop.sampled(1 - example.visibility.astype(np.float32) / 255)
+    return np.clip(shadow, 0, 1), np.asarray(crop.sampled(facing) * (skin > _INSIDE), np.float32)
 
 
 def _inside(matrix: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.bool_]:
@@ -112,9 +139,9 @@ def _version(graph: Graph, example: Example) -> str:
 
 def _write(lesson: Lesson, path: Path) -> None:
     with beside(path) as unfinished:
-        np.savez(unfinished, seen=lesson.seen, normals=lesson.normals, weight=lesson.weight)
+        np.savez(unfinished, **{part.name: getattr(lesson, part.name) for part in fields(lesson)})
 
 
 def _read(path: Path) -> Lesson:
     with np.load(path, allow_pickle=False) as file:
-        return Lesson(file["seen"], file["normals"], file["weight"])
+        return Lesson(**{part.name: file[part.name] for part in fields(Lesson)})

@@ -8,7 +8,18 @@ import numpy as np
 
 from graphface.nodes.harmonics import has_surface
 from graphface.nodes.pictures.photo import Pixels, backdrop
-from graphface.nodes.types import Albedo, Depth, Detail, FaceCoordinates, FloatArray, Gain, Normals, Shading, Surface
+from graphface.nodes.types import (
+    Albedo,
+    Depth,
+    Detail,
+    FaceCoordinates,
+    FloatArray,
+    Gain,
+    Normals,
+    RefinedSurface,
+    Shading,
+    Surface,
+)
 from graphface.pictures.colors import as_bytes, share_beyond, with_odd
 from graphface.values.picture import Picture, View
 
@@ -61,6 +72,16 @@ def draw_surface(surface: Surface, view: View) -> Picture:
     data = np.concatenate([normals, depth[..., None]], axis=2)
     pixels = normals_bytes(normals)
     return Picture(pixels, with_odd(_NORMALS, data), data, ("x", "y", "z", "depth"), _full(surface.depth))
+
+
+def draw_refined(refined: RefinedSurface, view: View) -> Picture:
+    """The surface's normals as colors, dark in a cast shadow."""
+    surface = refined.surface
+    normals, depth, shadow = (view.sampled(part) for part in (surface.normals, surface.depth, refined.shadow))
+    data = np.concatenate([normals, depth[..., None], shadow[..., None]], axis=2)
+    pixels = np.asarray(normals_bytes(normals) * (1 - 0.7 * np.clip(np.nan_to_num(shadow), 0, 1))[..., None], np.uint8)
+    note = with_odd(f"{_NORMALS}; dark: cast shadow", data)
+    return Picture(pixels, note, data, ("x", "y", "z", "depth", "shadow"), _full(surface.depth))
 
 
 def draw_coordinates(coordinates: FaceCoordinates, view: View) -> Picture:

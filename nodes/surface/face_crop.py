@@ -63,17 +63,23 @@ class FaceCrop:
         return np.asarray(warped, np.float32)
 
     def unwarped(self, values: FloatArray, window: tuple[int, int, int, int]) -> FloatArray:
-        """A map of the crop (SIZE x SIZE x C) on a window of the photo, fading out at the crop's edges."""
+        """A map of the crop, SIZE x SIZE (x C), on a window of the photo, fading out at the crop's edges."""
         import cv2
 
         top, bottom, left, right = window
         fade = np.zeros((SIZE, SIZE), np.float32)
         fade[_BORDER:-_BORDER, _BORDER:-_BORDER] = 1
-        faded = values * cv2.blur(fade, (_SOFTNESS, _SOFTNESS))[..., None]
+        faded = values * cv2.blur(fade, (_SOFTNESS, _SOFTNESS)).reshape(SIZE, SIZE, *[1] * (values.ndim - 2))
         matrix = self.matrix.copy()
         matrix[:, 2] += matrix[:, :2] @ (left, top)
         flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
         return np.asarray(cv2.warpAffine(faded, matrix, (right - left, bottom - top), flags=flags), np.float32)
+
+    def rim(self, width: float) -> FloatArray:
+        """0 at the crop's edges, 1 from `width` inter-ocular distances within, SIZE x SIZE."""
+        ramp = np.minimum(np.arange(SIZE), np.arange(SIZE)[::-1]) / max(width * INTEROCULAR, 1.0)
+        ramp = np.clip(ramp, 0, 1).astype(np.float32)
+        return np.minimum(ramp, ramp[:, None])
 
     def turned(self, vectors: FloatArray, back: bool = False) -> FloatArray:
         """Vectors (..., 3), x right and y up, from the photo's axes to the crop's, or back."""

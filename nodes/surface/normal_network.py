@@ -1,7 +1,8 @@
-"""The network that refines normals: a small U-Net (`graphface.nodes.unet`) on the crop about a face.
+"""The network that refines normals and finds cast shadows: a small U-Net (`graphface.nodes.unet`) on a face's crop.
 
-It sees the picture, the fitted normals, the face mask, and what the estimated light makes of the fitted normals, and
-gives what has to be added to them. It was learned from path-traced heads: `graphface models normals`.
+It sees the picture, the fitted normals, the face mask, and what the estimated light makes of the fitted normals. It
+gives what has to be added to the normals, and where something stands before the strongest lamp. It was learned from
+path-traced heads: `graphface models normals`.
 """
 
 from __future__ import annotations
@@ -31,7 +32,11 @@ OF_PICTURE = (*range(COLORS, NORMALS), *range(SHADING, PLACE))
 """The channels that depend on the picture's values."""
 
 
-NETWORK = Network("graphface-normals-1", "normals network", WIDTHS, 4 * CHANNELS, "graphface models normals")
+OUTPUTS = 4
+"""The correction of the normals, and the logit of the cast shadow."""
+
+
+NETWORK = Network("graphface-normals-2", "normals network", WIDTHS, 4 * CHANNELS, "graphface models normals")
 
 
 _BRIGHTEST = 3.0
@@ -86,9 +91,15 @@ def network_input(crop: FaceCrop, photo: Image, surface: Surface, mask: Mask, li
     return np.concatenate(channels, axis=2, dtype=np.float32)
 
 
-def corrections(seen: FloatArray, weights: Weights) -> FloatArray:
-    """What is to be added to the crop's normals, float32 SIZE x SIZE x 3, in the crop's axes."""
-    return unet(unshuffled(seen), weights, len(WIDTHS))
+def corrections(seen: FloatArray, weights: Weights) -> tuple[FloatArray, FloatArray]:
+    """What the network says of a crop.
+
+    Returns:
+        What is to be added to its normals, float32 SIZE x SIZE x 3, in the crop's axes; and the probability that
+        something stands before the strongest lamp, SIZE x SIZE, 0..1.
+    """
+    said = unet(unshuffled(seen), weights, len(WIDTHS))
+    return said[..., :3], np.asarray(1 / (1 + np.exp(-np.clip(said[..., 3], -30, 30))), np.float32)
 
 
 def unshuffled(values: FloatArray) -> FloatArray:

@@ -1,8 +1,8 @@
-"""Normals of a fitted head, refined from the picture.
+"""Normals of a fitted head, refined from the picture, and the shadows that the photo's lamp casts on it.
 
 A fitted model lacks the wings of this person's nose, the lids and the folds. The picture shows them, mixed with pigment
-and light. A small network has learned from path-traced heads what shading says about relief (see `normal_network` and
-the card beside the weights).
+and light. A small network has learned from path-traced heads what shading says about relief, and what a cast shadow
+looks like (see `normal_network` and the card beside the weights).
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from pydantic import Field
 from graphface import node, warn
 from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.strips import by_strips
+from graphface.nodes.surface.cast_shadow import cast_shadow, off_hair
 from graphface.nodes.surface.face_crop import INTEROCULAR, FaceCrop, face_crop
 from graphface.nodes.surface.normal_network import (
     COVERAGE,
@@ -25,13 +26,10 @@ from graphface.nodes.surface.normal_network import (
     network_input,
     shipped_weights,
 )
-from graphface.nodes.types import FloatArray, Image, Landmarks, Lighting, Mask, Segmentation, Surface
+from graphface.nodes.types import FloatArray, Image, Landmarks, Lighting, Mask, RefinedSurface, Segmentation, Surface
 
 _SHORTEST = 1e-3
 """Length of a changed normal from which it has a direction."""
-
-_HAIR_REACH = 0.1
-"""Inter-ocular distances."""
 
 
 @node("surface.refined")
@@ -46,8 +44,8 @@ def refined(
     *,
     finer_than: Annotated[float, Field(gt=0, le=1)] = 0.12,
     strength: Annotated[float, Field(ge=0, le=2)] = 1.0,
-) -> Surface:
-    """The surface with normals that fit the picture; its depth, coverage and triangles stay.
+) -> RefinedSurface:
+    """The surface with normals that fit the picture, and the picture's cast shadows.
 
     Args:
         surface: of the photo's size. photo: any encoding.
@@ -60,33 +58,27 @@ def refined(
         finer_than: standard deviation of the Gaussian, in inter-ocular distances, whose smooth part of the correction
             is left out; 1 takes the whole correction. The fit's coarse shape is better on real faces than what a
             network makes of it that was taught by one family of heads.
-        strength: factor of the correction.
+        strength: factor of the correction; with 0 the network does not run, and no shadow is found.
 
     Returns:
-        Unit normals within the crop about the face (1.1 inter-ocular distances to each side of it), as they were
-        beyond; a face that is not there, or a speck, keeps its normals, with a warning.
+        `surface` has unit normals within the crop about the face (1.1 inter-ocular distances to each side of it), as
+        they were beyond; its depth, coverage and triangles stay. `shadow` is 0 beyond the crop. A face that is not
+        there, or a speck, keeps its normals and has no shadow, with a warning.
     """
     crop = face_crop(landmarks)
     covered = bool((surface.coverage > 0).any())
     if strength == 0 or not covered or crop.scale >= INTEROCULAR or not np.isfinite(light.coefficients).all():
         if strength != 0:
             warn("surface.refined: there is no face that could be refined; the normals stay as they are")
-        return surface
+        return RefinedSurface(surface, np.zeros_like(surface.coverage))
     seen = network_input(crop, photo, surface, mask, light)
     arrays = shipped_weights() if weights is None else weights.arrays
-    change = np.float32(strength) * _fine(corrections(seen, arrays), seen, finer_than)
-    if labels is not None:
-        change *= _off_hair(crop.sampled(labels.hair))
-    return replace(surface, normals=_changed(surface, crop, change))
-
-
-def _off_hair(hair: FloatArray) -> FloatArray:
-    """0 on hair and beside it, 1 farther away, SIZE x SIZE x 1."""
-    import cv2
-
-    reach = round(_HAIR_REACH * INTEROCULAR)
-    wider = cv2.dilate(hair, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1)))
-    return np.asarray(1 - cv2.GaussianBlur(wider, (0, 0), reach / 2)[..., None], np.float32)
+    change, shadow = corrections(seen, arrays)
+    change = np.float32(strength) * _fine(change, seen, finer_than)
+    free = np.ones_like(shadow) if labels is None else off_hair(crop.sampled(labels.hair))
+    change *= free[..., None]
+    cast = cast_shadow(crop, shadow, free, photo, landmarks, surface.coverage)
+    return RefinedSurface(replace(surface, normals=_changed(surface, crop, change)), cast)
 
 
 def _fine(change: FloatArray, seen: FloatArray, finer_than: float) -> FloatArray:

@@ -25,7 +25,7 @@ from graphface.nodes.types.arrays import (
 )
 from graphface.nodes.types.correspondence import Correspondence, Pins
 from graphface.nodes.types.face_parts import REGIONS, Features, HeadMasks, Regions, Segmentation
-from graphface.nodes.types.geometry import Camera, FitRecord, Landmarks, Mesh, Surface
+from graphface.nodes.types.geometry import Camera, FitRecord, Landmarks, Mesh, RefinedSurface, Surface
 from graphface.nodes.types.illumination import Environment, Lighting, LightingFit
 from graphface.nodes.types.image import FileFormat, Image
 from graphface.nodes.types.judgements import Judgement, Judgements
@@ -68,6 +68,7 @@ __all__ = [
     "Normals",
     "Pins",
     "PointLight",
+    "RefinedSurface",
     "Regions",
     "Representation",
     "Samples",

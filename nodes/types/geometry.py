@@ -130,3 +130,16 @@ class Surface:
     coverage: Mask
     triangle: NDArray[np.int32]
     barycentric: FloatArray
+
+
+@dataclass(frozen=True)
+class RefinedSurface:
+    """What a picture says about the surface in it.
+
+    Attributes:
+        surface: with the normals that the picture shows.
+        shadow: float32 H x W, 0..1, where something stands before the photo's strongest lamp.
+    """
+
+    surface: Surface
+    shadow: Mask

@@ -18,7 +18,7 @@ def lights(
     out: Annotated[Path | None, typer.Argument(help="Folder for the results, as score.py reads them.")] = None,
     data: Data = DATA,
     truth: Annotated[str, typer.Option(help="heads: path-traced; yale: photographs, one light at a time.")] = "heads",
-    source: Annotated[str, typer.Option(help="Light of the heads' photo: frontal, left45 ...")] = "frontal",
+    source: Annotated[str, typer.Option(help="Light of the photo: frontal, left45 ... (yale: A+050E+00 ...)")] = "frontal",
     variant: Annotated[list[str] | None, typer.Option(help="By name; `all` for every one.")] = None,
     every: Annotated[int, typer.Option(min=1, help="Take every n-th person of the Yale set.")] = 1,
 ) -> None:
@@ -32,17 +32,19 @@ def lights(
     """
     from graphface import UsageError
     from graphface.nodes.bench.heads import LIGHTS
-    from graphface.nodes.bench.known_light_cases import head_cases, yale_cases
+    from graphface.nodes.bench.known_light_cases import YALE_FRONTAL, YALE_LIGHTS, head_cases, yale_cases
     from graphface.nodes.bench.known_lights import UNCHANGED, chosen_variants, relight_known
     from graphface.nodes.bench.variant_sheet import variant_sheets
     from graphface.report.terminal import print_table
 
     if truth not in ("heads", "yale"):
         raise UsageError(f"--truth {truth!r}: expected heads or yale")
-    if source not in LIGHTS:
-        raise UsageError(f"--source {source!r}: expected {', '.join(LIGHTS)}")
+    sources = LIGHTS if truth == "heads" else ("frontal", *YALE_LIGHTS)
+    if source not in sources:
+        raise UsageError(f"--source {source!r}: expected {', '.join(sources)}")
     chosen = chosen_variants(variant)
-    cases = head_cases(data, source) if truth == "heads" else yale_cases(data, every)
+    own = YALE_FRONTAL if source == "frontal" else source
+    cases = head_cases(data, source) if truth == "heads" else yale_cases(data, every, own)
     found = list(relight_known(cases, chosen, out))
     names = list(dict.fromkeys(figure.light for figure in found))
     kind, digits = ("si_psnr", 2) if truth == "heads" else ("si_mse", 4)

@@ -93,6 +93,15 @@ class TestYaleCases:
         """Counted from the first."""
         assert list(dict.fromkeys(c.subject for c in yale_cases(people, 2))) == ["yaleB01", "yaleB03"]
 
+    def test_from_another_light(self, people):
+        """From a light of the side to the frontal one and the others; whoever lacks the photograph is left out."""
+        (people / "yaleb" / "yaleB01" / "yaleB01_P00A+025E+00.png").unlink()
+        cases = list(yale_cases(people, source="A+025E+00"))
+        assert [c.subject for c in cases] == ["yaleB02"] * 3 + ["yaleB03"] * 3
+        assert [c.light for c in cases[:3]] == ["A+000E+00", *YALE_LIGHTS[1:3]]
+        unit = float(irradiance(yale_scene("A+025E+00"), FORWARD).mean())
+        assert cases[0].scene(FORWARD).lights[0].intensity == pytest.approx(1 / unit)
+
     def test_the_border_goes_away_again(self, people):
         """The photo is padded for the detector by what `crop` takes off; the whole crop is compared."""
         case = next(yale_cases(people))

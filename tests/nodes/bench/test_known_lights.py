@@ -112,12 +112,12 @@ def figures(networks, shared):
 
 class TestQuality:
     @pytest.mark.parametrize(
-        ("light", "reached"), [("left45", 29.9), ("right45", 28.3), ("top", 26.3), ("left80_hard", 27.0)]
+        ("light", "reached"), [("left45", 29.5), ("right45", 28.1), ("top", 26.0), ("left80_hard", 28.5)]
     )
     def test_keeps_its_quality(self, figures, light, reached):
         """Mean scale-invariant PSNR of the six path-traced heads stays near what was reached."""
         assert fmean(f.measured["si_psnr"] for f in figures if f.light == light) > reached - 0.3
 
     def test_of_all_lights(self, figures):
-        """28.9 dB were reached on average."""
-        assert fmean(f.measured["si_psnr"] for f in figures) > 28.6
+        """29.0 dB were reached on average."""
+        assert fmean(f.measured["si_psnr"] for f in figures) > 28.7

@@ -51,9 +51,11 @@ class TestNetworkInput:
 class TestCorrections:
     def test_shipped_weights(self):
         """The weights that come with the package fit the network; on an even picture they change normals little."""
-        change = corrections(seen_of(0.5), shipped_weights())
+        change, shadow = corrections(seen_of(0.5), shipped_weights())
         assert change.shape == (SIZE, SIZE, 3)
         assert 0 < np.abs(change).mean() < 0.3
+        assert shadow.shape == (SIZE, SIZE)
+        assert 0 <= shadow.min() <= shadow.max() <= 1
 
 
 class TestUnshuffled:
