@@ -54,8 +54,8 @@ def fit(
         order: 0 is ambient light, 1 as in the paper (4 coefficients), 2 (9), 3 (16).
         ridge: relative weight of the ridge.
         robust: against what no light explains: brows, eyes, lips, beards, cast shadows and highlights; see
-            `graphface.nodes.sh.regression`. (Relit path-traced heads: none 28.1, huber 29.1, trimmed 29.1 dB; two
-            heads of another family 27.3, 27.5, 27.6 dB; squared error on the Yale set 0.0098, 0.0097, 0.0096.)
+            `graphface.nodes.sh.regression`. (Relit path-traced heads: none 28.0, huber 29.0, trimmed 29.0 dB; two
+            heads of another family 27.4, 27.6, 27.6 dB; squared error on the Yale set 0.0099, 0.0097, 0.0096.)
         keep: share of the pixels that "trimmed" fits.
         nonnegative: constrain the light to be at least 0 in 600 directions.
         grey: one light for all channels of a colored shading.
