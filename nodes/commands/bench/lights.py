@@ -18,7 +18,7 @@ def lights(
     out: Annotated[Path | None, typer.Argument(help="Folder for the results, as score.py reads them.")] = None,
     data: Data = DATA,
     truth: Annotated[str, typer.Option(help="heads: path-traced; yale: photographs, one light at a time.")] = "heads",
-    source: Annotated[str, typer.Option(help="Light of the photo: frontal, left45 ... (yale: A+050E+00 ...)")] = "frontal",
+    source: Annotated[str, typer.Option(help="Light of the photo: frontal, left45, A+050E+00 ...")] = "frontal",
     variant: Annotated[list[str] | None, typer.Option(help="By name; `all` for every one.")] = None,
     every: Annotated[int, typer.Option(min=1, help="Take every n-th person of the Yale set.")] = 1,
 ) -> None:
