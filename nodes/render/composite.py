@@ -43,8 +43,7 @@ def composite(
             of the new shading on the background.
         labels, shine: without them all pixels count as face.
         response: see `render.response`, H x W; it scales the light that is added, and without it nothing does.
-        wall: the new shading on the background (`render.wall`), of the shape of `relit`; without it `relit` counts there
-            too.
+        wall: the new shading on the background (`render.wall`), of the shape of `relit`, which counts without it.
         lamps: what gives light itself, H x W; it keeps the old shading.
 
     Returns:

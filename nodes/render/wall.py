@@ -92,7 +92,8 @@ def _body(x: FloatArray, y: FloatArray) -> FloatArray:
     """1 where a body stands below a head, 0 at the wall: clothes count as background, and are as near as the head."""
     top, half, growth = _SHOULDERS
     below = top - y
-    return smoothstep(below / _SOFT) * smoothstep((half + growth * np.maximum(below, 0) - np.abs(x)) / _SOFT)
+    wide = half + growth * np.maximum(below, 0) - np.abs(x)
+    return np.asarray(smoothstep(below / _SOFT) * smoothstep(wide / _SOFT), np.float32)
 
 
 def _falloff(scene: Scene, mesh: Mesh, shape: tuple[int, int], distance: float) -> FloatArray:
