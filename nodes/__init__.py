@@ -25,7 +25,7 @@ _MODULES = {
     "detail": "additive multiplicative none split",
     "detail.edit": "bands wrinkles shine",
     "render": "samples shade shadow_maps surroundings spread background head skin specular hair_shine response "
-    "lamps composite relit fitted_head",
+    "lamps wall composite relit fitted_head",
     "light": "scene panorama",
     "scatter": "none gaussian screen_space",
     "transfer": "mask paint detail recolored",

@@ -12,8 +12,11 @@ from graphface.nodes.types import FloatArray, Mask, Scene, Segmentation, Shading
 
 def _needs(scene: Scene) -> Needs:
     return {
-        "labels": scene.background != 1 or "the scene lights the background like the face (background: 1)",
+        "labels": scene.background != 1
+        or scene.local
+        or "the scene lights the background like the face (background: 1)",
         "shine": scene.hair != 0 or "the scene lights hair like the face (hair: 0)",
+        "wall": (scene.background > 0 and scene.local) or "no lamp of the scene is near, or it lights no background",
         "lamps": scene.background > 0 or "the scene does not light the background (background: 0)",
     }
 
@@ -27,6 +30,7 @@ def composite(
     shine: Lazy[Mask] = None,
     response: Mask | None = None,
     lamps: Lazy[Mask] = None,
+    wall: Lazy[Shading] = None,
 ) -> Shading:
     """The face gets the new shading, the background a constant mixture, bright hair keeps more of the old shading.
 
@@ -39,6 +43,7 @@ def composite(
             of the new shading on the background.
         labels, shine: without them all pixels count as face.
         response: see `render.response`, H x W; it scales the light that is added, and without it nothing does.
+        wall: the new shading on the background (`render.wall`), of the shape of `relit`, which counts without it.
         lamps: what gives light itself, H x W; it keeps the old shading.
 
     Returns:
@@ -52,6 +57,9 @@ def composite(
     def strip(rows: slice) -> None:
         before = with_channels_of(estimated[rows], mixed)
         change = with_channels_of(relit[rows], mixed) - before
+        if wall is not None and labels is not None:
+            farther = with_channels_of(wall[rows], mixed) - with_channels_of(relit[rows], mixed)
+            change += farther * with_channels_of(labels.background[rows], mixed)
         if masks:
             change *= with_channels_of(_share_of_new(scene, labels, shine, lamps, rows), mixed)
         if response is not None:

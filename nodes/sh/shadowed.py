@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
@@ -90,7 +91,7 @@ def _depth(estimated: Shading, least: FloatArray, shadow: Mask, shading: Shading
     return float(np.clip(explained / max(possible, 1e-9), 0, 1))
 
 
-def _median(values: FloatArray, weight: FloatArray) -> float:
+def _median(values: NDArray[np.float64], weight: NDArray[np.float64]) -> float:
     on = weight > 0
     order = np.argsort(values[on])
     total = np.cumsum(weight[on][order])

@@ -56,6 +56,12 @@ class TestComposite:
             np.testing.assert_allclose(mixed[2, 7], 0.4)
             np.testing.assert_allclose(mixed[2, 8], 0.5 if labels else 0.8)
 
+    def test_a_wall_of_its_own(self):
+        """The background takes the wall's shading, by its share; face and hair do not."""
+        mixed = composite(OLD, NEW, Scene(background=0.5, hair=0), thirds(), wall=np.full(SHAPE, 0.2, np.float32))
+        np.testing.assert_allclose(mixed[:, :6], 0.8, atol=1e-6)
+        np.testing.assert_allclose(mixed[:, 6:], 0.3, atol=1e-6)
+
     def test_response_counts_without_labels(self):
         """A scene that lights all like the face still adds less to what reflects less, and takes away in full."""
         half = np.full(SHAPE, 0.5, np.float32)
