@@ -25,6 +25,9 @@ _MOST = 256
 _SHOULDERS = 2.5
 """Half of their width with a margin, in inter-ocular distances."""
 
+_STRAND = 0.12
+"""Width, in inter-ocular distances, up to which something dark in front of a wall is not the wall."""
+
 _LEAST_PIXELS = 4
 """Of the surroundings of a spot, to tell their brightness."""
 
@@ -68,6 +71,9 @@ def lamps(
         return nothing
     spots = (copy.down(blown_out.astype(np.float32)) > 0.5).astype(np.uint8)
     intensity, wall = copy.down(channel_mean(photo.pixels)), copy.down(background)
+    # Without strands: between curls a white wall would stand out from the dark hair about it.
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * max(1, round(_STRAND * copy.interocular / 2)) + 1,) * 2)
+    behind = cv2.morphologyEx(intensity, cv2.MORPH_CLOSE, disc)
     count, found, boxes, middles = cv2.connectedComponentsWithStats(spots)
     numbers, extents = np.asarray(found, np.int32), np.asarray(boxes, np.int32)
     areas = extents[:, cv2.CC_STAT_AREA]
@@ -78,7 +84,7 @@ def lamps(
     for number in candidates:
         window, reach = _around(extents[number])
         ring = _grown(numbers[window] == number, reach) & (spots[window] == 0) & (wall[window] > 0.5)
-        around = intensity[window][ring]
+        around = behind[window][ring]
         kept[number] = around.size > _LEAST_PIXELS and np.percentile(around, 25) < 1 - contrast
     if not kept.any():
         return nothing
