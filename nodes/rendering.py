@@ -110,13 +110,13 @@ def recombined(
 
     Args:
         photo: the picture before the edit; the change from it is limited. Its alpha and file format are kept.
-        shoulder, toe: 0 to 1, see `_soft_limited`.
+        shoulder, toe: 0 to 1, see `soft_limited`.
     """
     pixels = np.empty(photo.pixels.shape, np.float32)
 
     def strip(rows: slice) -> None:
         picture = applied(_rows_of(detail, rows), rendering(albedo[rows], shading[rows]))
-        _soft_limited(picture, photo.pixels[rows], shoulder, toe, out=pixels[rows])
+        soft_limited(picture, photo.pixels[rows], shoulder, toe, out=pixels[rows])
 
     by_strips(strip, pixels.shape)
     return photo.with_pixels(pixels)
@@ -127,7 +127,7 @@ def _rows_of(detail: DetailMap, rows: slice) -> DetailMap:
     return DetailMap(detail.offset[rows], **{name: part[rows] for name, part in parts.items() if part is not None})
 
 
-def _soft_limited(picture: FloatArray, before: FloatArray, shoulder: float, toe: float, out: FloatArray) -> None:
+def soft_limited(picture: FloatArray, before: FloatArray, shoulder: float, toe: float, out: FloatArray) -> None:
     """The new picture, with its change limited to the headroom that each value had up to 1, or down to 0.
 
     A change passes unaltered up to the share 1 - shoulder of the headroom (downwards 1 - toe). Beyond this knee the

@@ -75,7 +75,7 @@ def split(
     gain, offset = np.empty_like(source), np.empty_like(source)
 
     def divide(rows: slice) -> None:
-        gain[rows] = in_three_channels(_bounded_exp(log_ratio[rows], bound))
+        gain[rows] = in_three_channels(bounded_exp(log_ratio[rows], bound))
         np.subtract(source[rows], gain[rows] * rendered[rows], out=offset[rows])
 
     by_strips(divide, source.shape)
@@ -84,7 +84,7 @@ def split(
     return DetailMap(offset=offset, gain=gain, pivot=rendered, ceiling=ceiling)
 
 
-def _bounded_exp(log_ratio: FloatArray, bound: float) -> FloatArray:
+def bounded_exp(log_ratio: FloatArray, bound: float) -> FloatArray:
     """exp(L tanh(log_ratio / L)) with L = log(bound): near 1 the ratio itself, and always in 1 / bound .. bound."""
     limit = np.float32(max(np.log(bound), 1e-6))
     gain: FloatArray = np.exp(limit * np.tanh(log_ratio / limit))
