@@ -84,14 +84,8 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     if pivot is None or gain is None or not added.any():
         return
     before = channel_mean(pivot)
-    known = np.clip(before / _LEAST_BRIGHTNESS - 1, 0, 1)  # a black rendering says nothing of the albedo's color
+    fading = tint_fading(before, channel_mean(added))
     np.maximum(before, _LEAST_BRIGHTNESS, out=before)
-    after = channel_mean(added)
-    after += before
-    fading = before / after
-    fading *= fading * fading
-    np.subtract(1, fading, out=fading)
-    fading *= known
     photo = gain * pivot
     photo += detail.offset
     # photo - pivot * |photo| / |pivot|, times the part that fades
@@ -101,6 +95,21 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     photo *= in_three_channels(fading)
     picture -= photo
     picture += in_three_channels(brightness) * pivot
+
+
+def tint_fading(before: FloatArray, added: FloatArray) -> FloatArray:
+    """1 - (before / (before + added))^3, or less where the rendering is black.
+
+    Args:
+        before, added: brightness of the rendering and of the light that is added to it, H x W.
+    """
+    known = np.clip(before / _LEAST_BRIGHTNESS - 1, 0, 1)  # a black rendering says nothing of the albedo's color
+    before = np.maximum(before, _LEAST_BRIGHTNESS)
+    fading = before / (added + before)
+    fading *= fading * fading
+    np.subtract(1, fading, out=fading)
+    fading *= known
+    return fading
 
 
 def recombined(

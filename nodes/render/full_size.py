@@ -8,7 +8,7 @@ from graphface import Lazy, Needs, UsageError, node
 from graphface.nodes.color import decode_srgb, encode_srgb
 from graphface.nodes.enlargement import Enlarged
 from graphface.nodes.render.composite import share_of_new
-from graphface.nodes.render.pixelwise import Enlargement, Layers, Pixelwise
+from graphface.nodes.render.pixelwise import EnlargedPixelwise, Layers, Pixelwise
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import (
     Albedo,
@@ -25,6 +25,10 @@ from graphface.nodes.types import (
 
 _LEAST_REST = 1e-3
 """Largest difference between two pictures that are the same to the eye and to an 8-bit file."""
+
+
+_PLANES = 16
+"""Maps of a pixel that are at hand together, for the size of a strip."""
 
 
 def _needs(scene: Scene) -> Needs:
@@ -116,30 +120,31 @@ def full_size(
     pixelwise = Pixelwise(layers)
     model = pixelwise.at(size)
     rest = _rest(pixelwise.at(working.pixels.shape[:2]), working, relit)
-    enlarged = None if rest is None else Enlarged(rest, size)
+    enlarged = None if rest is None else Enlarged([rest[..., channel] for channel in range(3)], size)
     pixels = np.empty(photo.pixels.shape, np.float32)
 
     def strip(rows: slice) -> None:
         before = _encoded(photo.pixels[rows], photo.encoding, working.encoding)
         part = model.rows(rows, before)
         if enlarged is not None:
-            part += enlarged.rows(rows)
+            for channel, plane in enumerate(enlarged.rows(rows)):
+                part[..., channel] += plane
             np.maximum(part, np.minimum(before, 0), out=part)
             np.minimum(part, np.maximum(before, 1), out=part)
         pixels[rows] = part
 
-    by_strips(strip, pixels.shape)
+    by_strips(strip, (*size, _PLANES))
     return photo.with_pixels(pixels, working.encoding)
 
 
-def _rest(model: Enlargement, working: Image, relit: Image) -> FloatArray | None:
+def _rest(model: EnlargedPixelwise, working: Image, relit: Image) -> FloatArray | None:
     """What the graph's picture is beyond the model's, h x w x 3, or None where that is nothing."""
     rest = np.empty_like(working.pixels)
 
     def strip(rows: slice) -> None:
         np.subtract(relit.pixels[rows], model.rows(rows, working.pixels[rows]), out=rest[rows])
 
-    by_strips(strip, rest.shape)
+    by_strips(strip, (*rest.shape[:2], _PLANES))
     return rest if np.abs(rest).max(initial=0) > _LEAST_REST else None
 
 
