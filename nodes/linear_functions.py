@@ -8,9 +8,14 @@ functions follow the large picture's edges.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphface.nodes.types import FloatArray
+
+_PAIRS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+"""Upper triangle of a symmetric 3 x 3 matrix."""
+
+_LEAST_DETERMINANT = 1e-30
+"""Is divided by."""
 
 
 def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: float) -> FloatArray:
@@ -33,38 +38,47 @@ def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: floa
     >>> bool(abs(slope.sum() - 2) < 1e-2)
     True
     """
-    count = maps.shape[2]
-    mean_guide, mean_values = _boxed(guide, side), _boxed(maps, side)
-    products = _boxed((guide[..., :, None] * guide[..., None, :]).reshape(*guide.shape[:2], 9), side)
-    covariance = products.reshape(*guide.shape[:2], 3, 3) - mean_guide[..., :, None] * mean_guide[..., None, :]
-    covariance += ridge * np.eye(3, dtype=np.float32)
-    crossed = _boxed((guide[..., :, None] * maps[..., None, :]).reshape(*guide.shape[:2], 3 * count), side)
-    crossed = crossed.reshape(*guide.shape[:2], 3, count) - mean_guide[..., :, None] * mean_values[..., None, :]
-    slopes = _solved(covariance, crossed)
-    offsets = mean_values - np.einsum("hwcl,hwc->hwl", slopes, mean_guide)
-    coefficients = np.concatenate([np.moveaxis(slopes, 3, 2), offsets[..., None]], axis=3)
-    return _boxed(coefficients.reshape(*guide.shape[:2], 4 * count), side)
-
-
-def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
-    """Solutions of a symmetric positive definite 3 x 3 system at every pixel, by cofactors in float64."""
-    m = np.moveaxis(matrices.astype(np.float64), (2, 3), (0, 1))
-    cofactors = np.empty_like(m)
-    for i in range(3):
-        for j in range(3):
-            (a, b), (c, d) = [((i + 1) % 3, (i + 2) % 3), ((j + 1) % 3, (j + 2) % 3)]
-            cofactors[i, j] = m[a, c] * m[b, d] - m[a, d] * m[b, c]
-    determinant = (m[0] * cofactors[0]).sum(axis=0)
-    solved: NDArray[np.float64] = np.einsum("jihw,hwjl->hwil", cofactors, right)
-    return np.asarray(solved / np.maximum(determinant, 1e-30)[..., None, None], np.float32)
-
-
-def _boxed(values: FloatArray, side: int) -> FloatArray:
-    """Means over square windows; OpenCV filters at most four channels at a time."""
     import cv2
 
-    planes = [
-        cv2.blur(np.ascontiguousarray(values[..., k : k + 4]), (side, side), borderType=cv2.BORDER_REFLECT)
-        for k in range(0, values.shape[2], 4)
-    ]
-    return np.concatenate([p.reshape(*values.shape[:2], -1) for p in planes], axis=2)
+    def mean(values: FloatArray) -> FloatArray:
+        return np.asarray(cv2.blur(values, (side, side), borderType=cv2.BORDER_REFLECT), np.float32)
+
+    colors, values = _planes(guide), _planes(maps)
+    means = [mean(color) for color in colors]
+    covariance = {(i, j): mean(colors[i] * colors[j]) - means[i] * means[j] for i, j in _PAIRS}
+    for i in range(3):
+        covariance[i, i] += np.float32(ridge)
+    inverse = _inverse(covariance)
+    found = []
+    for value in values:
+        average = mean(value)
+        crossed = [mean(color * value) - own * average for color, own in zip(colors, means, strict=True)]
+        for i in range(3):
+            slope = sum(inverse[min(i, j), max(i, j)] * crossed[j] for j in range(3))
+            average -= slope * means[i]
+            found.append(mean(slope))
+        found.append(mean(average))
+    return np.stack(found, axis=2)
+
+
+def _planes(values: FloatArray) -> list[FloatArray]:
+    return [np.ascontiguousarray(values[..., c], np.float32) for c in range(values.shape[2])]
+
+
+def _inverse(matrix: dict[tuple[int, int], FloatArray]) -> dict[tuple[int, int], FloatArray]:
+    """Of a symmetric positive definite 3 x 3 matrix at every pixel, by cofactors; both by their upper triangles.
+
+    In float64: with a small ridge the determinant is a difference of nearly equal products.
+    """
+    m = {place: plane.astype(np.float64) for place, plane in matrix.items()}
+    cofactors = {
+        (0, 0): m[1, 1] * m[2, 2] - m[1, 2] * m[1, 2],
+        (0, 1): m[0, 2] * m[1, 2] - m[0, 1] * m[2, 2],
+        (0, 2): m[0, 1] * m[1, 2] - m[0, 2] * m[1, 1],
+        (1, 1): m[0, 0] * m[2, 2] - m[0, 2] * m[0, 2],
+        (1, 2): m[0, 1] * m[0, 2] - m[0, 0] * m[1, 2],
+        (2, 2): m[0, 0] * m[1, 1] - m[0, 1] * m[0, 1],
+    }
+    determinant = m[0, 0] * cofactors[0, 0] + m[0, 1] * cofactors[0, 1] + m[0, 2] * cofactors[0, 2]
+    reciprocal = 1 / np.maximum(determinant, _LEAST_DETERMINANT)
+    return {place: np.asarray(cofactor * reciprocal, np.float32) for place, cofactor in cofactors.items()}

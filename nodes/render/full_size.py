@@ -9,7 +9,7 @@ from graphface.nodes.color import decode_srgb, encode_srgb
 from graphface.nodes.enlargement import Enlarged
 from graphface.nodes.render.composite import share_of_new
 from graphface.nodes.render.pixelwise import EnlargedPixelwise, Layers, Pixelwise
-from graphface.nodes.strips import by_strips
+from graphface.nodes.strips import by_strips, in_parallel
 from graphface.nodes.types import (
     Albedo,
     DetailMap,
@@ -26,6 +26,9 @@ from graphface.nodes.types import (
 _LEAST_REST = 1e-3
 """Largest difference between two pictures that are the same to the eye and to an 8-bit file."""
 
+
+_PROBES, _PROBED = 8, 8
+"""Places of the small picture at which the model is compared with the graph, and their rows."""
 
 _PLANES = 16
 """Maps of a pixel that are at hand together, for the size of a strip."""
@@ -138,14 +141,20 @@ def full_size(
 
 
 def _rest(model: EnlargedPixelwise, working: Image, relit: Image) -> FloatArray | None:
-    """What the graph's picture is beyond the model's, h x w x 3, or None where that is nothing."""
+    """What the graph's picture is beyond the model's, h x w x 3, or None where that is nothing in a few rows."""
     rest = np.empty_like(working.pixels)
 
     def strip(rows: slice) -> None:
         np.subtract(relit.pixels[rows], model.rows(rows, working.pixels[rows]), out=rest[rows])
 
+    height = len(rest)
+    tops = range(0, height, max(1, height // _PROBES))
+    probes = [slice(top, min(top + _PROBED, height)) for top in tops]
+    in_parallel(strip, probes)
+    if all(np.abs(rest[probe]).max(initial=0) <= _LEAST_REST for probe in probes):
+        return None
     by_strips(strip, (*rest.shape[:2], _PLANES))
-    return rest if np.abs(rest).max(initial=0) > _LEAST_REST else None
+    return rest
 
 
 def _encoded(pixels: FloatArray, own: Encoding, wanted: Encoding) -> FloatArray:
