@@ -12,9 +12,8 @@ from graphface import node
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import Image, Landmarks
 
-_LEAST_GAIN = 0.5
-"""Share of the pixels above which the photo is left as it is: the enlargement of the result would cost what the rest
-saves."""
+_MOST_KEPT = 0.25
+"""Share of the pixels above which the photo is left as it is: to make a picture of its size costs what is saved."""
 
 
 @node("image.working_size")
@@ -33,7 +32,7 @@ def working_size(
     Args:
         photo: any encoding; areas are averaged in it, and transparency is left out.
         landmarks: on the photo.
-        resolution: None keeps every pixel. A photo that would keep half of its pixels keeps all.
+        resolution: None keeps every pixel. A photo that would keep more than a quarter of its pixels keeps all.
         megapixels: bound of the result's size, for a small face in a large photo.
 
     Returns:
@@ -43,6 +42,6 @@ def working_size(
         return photo
     most = max(photo.height, photo.width) * min(1.0, (megapixels * 1e6 / (photo.height * photo.width)) ** 0.5)
     copy = face_scale(landmarks, photo.pixels.shape, resolution, most=max(1, round(most)))
-    if copy.scale**2 > _LEAST_GAIN:
+    if copy.scale**2 > _MOST_KEPT:
         return photo
     return replace(photo, pixels=np.ascontiguousarray(copy.down(photo.pixels)), alpha=None)

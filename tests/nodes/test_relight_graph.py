@@ -61,15 +61,16 @@ class TestRelight:
         assert 0 < np.abs(one - two).max() < 0.05
 
 
+@pytest.fixture(scope="module")
+def large(astronaut):
+    """The photograph enlarged threefold, so that its eyes are farther apart than the working size asks for."""
+    import cv2
+
+    return image_from_array(np.clip(cv2.resize(astronaut.pixels[:340, 50:390], None, fx=3, fy=3), 0, 1))
+
+
 class TestWorkingSize:
     LIGHT: ClassVar = {"ambient": 0.2, "background": 0.5, "lights": [{"type": "directional", "azimuth": -60}]}
-
-    @pytest.fixture(scope="class")
-    def large(self, astronaut):
-        """The photograph enlarged threefold, so that its eyes are farther apart than the working size asks for."""
-        import cv2
-
-        return image_from_array(np.clip(cv2.resize(astronaut.pixels[:340, 50:390], None, fx=3, fy=3), 0, 1))
 
     def test_a_photo_of_that_size_is_relit_as_it_is(self, astronaut):
         """Every byte is that of a graph without a working size."""
