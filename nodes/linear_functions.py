@@ -54,7 +54,9 @@ def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: floa
         average = mean(value)
         crossed = [mean(color * value) - own * average for color, own in zip(colors, means, strict=True)]
         for i in range(3):
-            slope = sum(inverse[min(i, j), max(i, j)] * crossed[j] for j in range(3))
+            slope = np.zeros_like(value)
+            for j in range(3):
+                slope += inverse[min(i, j), max(i, j)] * crossed[j]
             average -= slope * means[i]
             found.append(mean(slope))
         found.append(mean(average))

@@ -97,6 +97,13 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     picture += in_three_channels(brightness) * pivot
 
 
+def bounded_exp(log_ratio: FloatArray, bound: float) -> FloatArray:
+    """exp(L tanh(log_ratio / L)) with L = log(bound): near 1 the ratio itself, and always in 1 / bound .. bound."""
+    limit = np.float32(max(np.log(bound), 1e-6))
+    gain: FloatArray = np.exp(limit * np.tanh(log_ratio / limit))
+    return gain
+
+
 def tint_fading(before: FloatArray, added: FloatArray) -> FloatArray:
     """1 - (before / (before + added))^3, or less where the rendering is black.
 

@@ -25,7 +25,7 @@ from pydantic import Field
 from graphface import node, warn
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean, in_three_channels
-from graphface.nodes.rendering import rendering
+from graphface.nodes.rendering import bounded_exp, rendering
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Landmarks, Shading
 
@@ -82,13 +82,6 @@ def split(
     # A copy, because a result that shares memory with a photo of the caller's is not memoized.
     ceiling = None if source is photo.pixels else photo.pixels.copy()
     return DetailMap(offset=offset, gain=gain, pivot=rendered, ceiling=ceiling)
-
-
-def bounded_exp(log_ratio: FloatArray, bound: float) -> FloatArray:
-    """exp(L tanh(log_ratio / L)) with L = log(bound): near 1 the ratio itself, and always in 1 / bound .. bound."""
-    limit = np.float32(max(np.log(bound), 1e-6))
-    gain: FloatArray = np.exp(limit * np.tanh(log_ratio / limit))
-    return gain
 
 
 def _interocular(landmarks: Landmarks | None, photo: Image) -> float:

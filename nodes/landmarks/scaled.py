@@ -25,6 +25,6 @@ def scaled(landmarks: Landmarks, photo: Image, copy: Image) -> Landmarks:
     across, down = copy.width / photo.width, copy.height / photo.height
     points = landmarks.points.copy()
     # Integers are the middles of pixels.
-    points[:, :2] = (points[:, :2] + np.float32(0.5)) * np.float32([across, down]) - np.float32(0.5)
+    points[:, :2] = (points[:, :2] + np.float32(0.5)) * np.array([across, down], np.float32) - np.float32(0.5)
     points[:, 2] *= np.float32((across + down) / 2)
     return replace(landmarks, points=points)

@@ -16,13 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphface.nodes.color import channel_mean, in_three_channels
-from graphface.nodes.detail.split import bounded_exp
 from graphface.nodes.enlargement import Enlarged, linear_masks
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.render.dark_texture import rough_below
 from graphface.nodes.render.relit import with_light
 from graphface.nodes.render.response import of_dark_skin, reflected_share
-from graphface.nodes.rendering import soft_limited, tint_fading
+from graphface.nodes.rendering import bounded_exp, soft_limited, tint_fading
 from graphface.nodes.types import DetailMap, FloatArray, Landmarks
 
 _FLOOR = np.float32(0.08)
@@ -153,7 +152,11 @@ class EnlargedPixelwise:
         source = [c + r for c, r in zip(color, maps["raised"], strict=True)] if "raised" in maps else color
         intensity = _mean(source)
         shading = np.maximum(intensity, _FLOOR)
-        albedo = [_albedo(*parts) for parts in zip(source, maps["slope"], maps["tint"], [1 / shading] * 3, strict=True)]
+        inverse = np.asarray(1 / shading, np.float32)
+        albedo = [
+            _albedo(one, inverse, slope, tint)
+            for one, slope, tint in zip(source, maps["slope"], maps["tint"], strict=True)
+        ]
         before, mean_albedo = maps["before"], _mean(albedo)
         removed, added = self._changes(color, shading, maps)
         rendered = (
@@ -221,17 +224,18 @@ def _mean(planes: list[FloatArray]) -> FloatArray:
     return mean
 
 
-def _albedo(source: FloatArray, slope: FloatArray, tint: FloatArray, inverse: FloatArray) -> FloatArray:
+def _albedo(source: FloatArray, inverse: FloatArray, slope: FloatArray, tint: FloatArray) -> FloatArray:
     albedo = source * inverse
     albedo *= slope
     albedo += tint
-    return np.maximum(albedo, 0, out=albedo)
+    np.maximum(albedo, 0, out=albedo)
+    return albedo
 
 
 def _linear(function: list[FloatArray], color: list[FloatArray]) -> FloatArray:
     """a . color + b, in [0, 1]."""
     *slopes, value = function
-    value = value.copy()
+    value = np.array(value, np.float32)
     for slope, plane in zip(slopes, color, strict=True):
         value += slope * plane
     return np.clip(value, 0, 1, out=value)
@@ -263,12 +267,13 @@ def _albedo_of_color(albedo: FloatArray, source: FloatArray, shading: FloatArray
     def mean(values: FloatArray) -> FloatArray:
         return np.asarray(cv2.blur(values, _WINDOW, borderType=cv2.BORDER_REFLECT), np.float32)
 
-    plain = source / in_three_channels(np.asarray(shading, np.float32))
+    plain = np.asarray(source / in_three_channels(np.asarray(shading, np.float32)), np.float32)
     mean_plain, mean_albedo = mean(plain), mean(albedo)
     variance = mean(plain * plain) - mean_plain * mean_plain
     covariance = mean(plain * albedo) - mean_plain * mean_albedo
     # Where the plain albedo does not vary the slope is 1.
-    slope = mean((covariance + _LEAST_VARIANCE) / (np.maximum(variance, 0) + _LEAST_VARIANCE))
+    variance = np.maximum(variance, 0) + _LEAST_VARIANCE
+    slope = mean(np.asarray((covariance + _LEAST_VARIANCE) / variance, np.float32))
     return slope, albedo - slope * plain
 
 
