@@ -6,8 +6,8 @@
 from graphface import Pack
 
 _MODULES = {
-    "image": "encode resize unclipped",
-    "landmarks": "facemesh given",
+    "image": "encode resize unclipped working_size",
+    "landmarks": "facemesh given scaled",
     "geometry": "facemesh morphable average",
     "person": "morphable",
     "surface": "rasterize coordinates visibility refined",
@@ -25,7 +25,7 @@ _MODULES = {
     "detail": "additive multiplicative none split",
     "detail.edit": "bands wrinkles shine",
     "render": "samples shade shadow_maps surroundings spread background head skin specular hair_shine response "
-    "lamps wall composite relit fitted_head",
+    "lamps wall composite relit fitted_head full_size",
     "light": "scene panorama",
     "scatter": "none gaussian screen_space",
     "transfer": "mask paint detail recolored",

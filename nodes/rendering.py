@@ -84,14 +84,8 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     if pivot is None or gain is None or not added.any():
         return
     before = channel_mean(pivot)
-    known = np.clip(before / _LEAST_BRIGHTNESS - 1, 0, 1)  # a black rendering says nothing of the albedo's color
+    fading = tint_fading(before, channel_mean(added))
     np.maximum(before, _LEAST_BRIGHTNESS, out=before)
-    after = channel_mean(added)
-    after += before
-    fading = before / after
-    fading *= fading * fading
-    np.subtract(1, fading, out=fading)
-    fading *= known
     photo = gain * pivot
     photo += detail.offset
     # photo - pivot * |photo| / |pivot|, times the part that fades
@@ -103,6 +97,28 @@ def _fade_tint(picture: FloatArray, added: FloatArray, detail: DetailMap) -> Non
     picture += in_three_channels(brightness) * pivot
 
 
+def bounded_exp(log_ratio: FloatArray, bound: float) -> FloatArray:
+    """exp(L tanh(log_ratio / L)) with L = log(bound): near 1 the ratio itself, and always in 1 / bound .. bound."""
+    limit = np.float32(max(np.log(bound), 1e-6))
+    gain: FloatArray = np.exp(limit * np.tanh(log_ratio / limit))
+    return gain
+
+
+def tint_fading(before: FloatArray, added: FloatArray) -> FloatArray:
+    """1 - (before / (before + added))^3, or less where the rendering is black.
+
+    Args:
+        before, added: brightness of the rendering and of the light that is added to it, H x W.
+    """
+    known = np.clip(before / _LEAST_BRIGHTNESS - 1, 0, 1)  # a black rendering says nothing of the albedo's color
+    before = np.maximum(before, _LEAST_BRIGHTNESS)
+    fading = before / (added + before)
+    fading *= fading * fading
+    np.subtract(1, fading, out=fading)
+    fading *= known
+    return fading
+
+
 def recombined(
     photo: Image, albedo: Albedo, shading: Shading, detail: DetailMap, shoulder: float = 0.5, toe: float = 0.5
 ) -> Image:
@@ -110,13 +126,13 @@ def recombined(
 
     Args:
         photo: the picture before the edit; the change from it is limited. Its alpha and file format are kept.
-        shoulder, toe: 0 to 1, see `_soft_limited`.
+        shoulder, toe: 0 to 1, see `soft_limited`.
     """
     pixels = np.empty(photo.pixels.shape, np.float32)
 
     def strip(rows: slice) -> None:
         picture = applied(_rows_of(detail, rows), rendering(albedo[rows], shading[rows]))
-        _soft_limited(picture, photo.pixels[rows], shoulder, toe, out=pixels[rows])
+        soft_limited(picture, photo.pixels[rows], shoulder, toe, out=pixels[rows])
 
     by_strips(strip, pixels.shape)
     return photo.with_pixels(pixels)
@@ -127,7 +143,7 @@ def _rows_of(detail: DetailMap, rows: slice) -> DetailMap:
     return DetailMap(detail.offset[rows], **{name: part[rows] for name, part in parts.items() if part is not None})
 
 
-def _soft_limited(picture: FloatArray, before: FloatArray, shoulder: float, toe: float, out: FloatArray) -> None:
+def soft_limited(picture: FloatArray, before: FloatArray, shoulder: float, toe: float, out: FloatArray) -> None:
     """The new picture, with its change limited to the headroom that each value had up to 1, or down to 0.
 
     A change passes unaltered up to the share 1 - shoulder of the headroom (downwards 1 - toe). Beyond this knee the

@@ -37,7 +37,7 @@ def segmentation_graph(
     document: dict[str, Any] = {"graphface": 1, "extends": "represent.yaml"}
     if points:
         document["inputs"] = {"points": "Landmarks"}
-        document["nodes"] = {"landmarks": {"use": "landmarks.given", "in": {"photo": "photo", "points": "points"}}}
+        document["nodes"] = {"detected": {"use": "landmarks.given", "in": {"photo": "photo", "points": "points"}}}
     if labels == "cue":
         document["variants"] = {"cue": {MATTED: {"in": {"labels": "cue"}}}}
     variants = [] if labels == "classify" else [labels]

@@ -25,9 +25,9 @@ from pydantic import Field
 from graphface import node, warn
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean, in_three_channels
-from graphface.nodes.rendering import rendering
+from graphface.nodes.rendering import bounded_exp, rendering
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import Albedo, DetailMap, FloatArray, Image, Landmarks, Shading
+from graphface.nodes.types import Albedo, DetailMap, Image, Landmarks, Shading
 
 
 @node("detail.split")
@@ -75,20 +75,13 @@ def split(
     gain, offset = np.empty_like(source), np.empty_like(source)
 
     def divide(rows: slice) -> None:
-        gain[rows] = in_three_channels(_bounded_exp(log_ratio[rows], bound))
+        gain[rows] = in_three_channels(bounded_exp(log_ratio[rows], bound))
         np.subtract(source[rows], gain[rows] * rendered[rows], out=offset[rows])
 
     by_strips(divide, source.shape)
     # A copy, because a result that shares memory with a photo of the caller's is not memoized.
     ceiling = None if source is photo.pixels else photo.pixels.copy()
     return DetailMap(offset=offset, gain=gain, pivot=rendered, ceiling=ceiling)
-
-
-def _bounded_exp(log_ratio: FloatArray, bound: float) -> FloatArray:
-    """exp(L tanh(log_ratio / L)) with L = log(bound): near 1 the ratio itself, and always in 1 / bound .. bound."""
-    limit = np.float32(max(np.log(bound), 1e-6))
-    gain: FloatArray = np.exp(limit * np.tanh(log_ratio / limit))
-    return gain
 
 
 def _interocular(landmarks: Landmarks | None, photo: Image) -> float:

@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
 from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.face_scale import FaceScale, face_scale
+from graphface.nodes.linear_functions import linear_functions
 from graphface.nodes.types import FloatArray, Image, Landmarks, Segmentation
 
 
@@ -46,43 +46,12 @@ def guided(
     alphas = np.stack([labels.face[part], labels.hair[part]], axis=2)
     copy = face_scale(landmarks, guide.shape, resolution)
     side = 2 * max(1, round(radius * copy.interocular)) + 1
-    coefficients = _coefficients(copy.down(guide), copy.down(alphas).reshape(*copy.size, 2), side, ridge)
+    coefficients = linear_functions(copy.down(guide), copy.down(alphas).reshape(*copy.size, 2), side, ridge)
     filtered = np.clip(_applied(coefficients, guide, copy), 0, 1)
     filtered /= np.maximum(filtered[0] + filtered[1], 1)
     face, hair = labels.face.copy(), labels.hair.copy()
     face[part], hair[part] = filtered
     return Segmentation(face, hair, np.maximum(1 - face - hair, 0))
-
-
-def _coefficients(guide: FloatArray, alphas: FloatArray, side: int, ridge: float) -> FloatArray:
-    """a and b of alpha = a . color + b, for face and hair: h x w x 8.
-
-    Each window's a = (covariance of colors + ridge)^-1 (covariance of colors and alpha) and b = mean alpha - a . mean
-    color (He's equations 5 and 6); a pixel's are the means over the windows it lies in.
-    """
-    mean_guide, mean_alphas = _boxed(guide, side), _boxed(alphas, side)
-    products = _boxed((guide[..., :, None] * guide[..., None, :]).reshape(*guide.shape[:2], 9), side)
-    covariance = products.reshape(*guide.shape[:2], 3, 3) - mean_guide[..., :, None] * mean_guide[..., None, :]
-    covariance += ridge * np.eye(3, dtype=np.float32)
-    crossed = _boxed((guide[..., :, None] * alphas[..., None, :]).reshape(*guide.shape[:2], 6), side)
-    crossed = crossed.reshape(*guide.shape[:2], 3, 2) - mean_guide[..., :, None] * mean_alphas[..., None, :]
-    slopes = _solved(covariance, crossed)
-    offsets = mean_alphas - np.einsum("hwcl,hwc->hwl", slopes, mean_guide)
-    coefficients = np.concatenate([np.moveaxis(slopes, 3, 2), offsets[..., None]], axis=3)
-    return _boxed(coefficients.reshape(*guide.shape[:2], 8), side)
-
-
-def _solved(matrices: FloatArray, right: FloatArray) -> FloatArray:
-    """Solutions of a symmetric positive definite 3 x 3 system at every pixel, by cofactors in float64."""
-    m = np.moveaxis(matrices.astype(np.float64), (2, 3), (0, 1))
-    cofactors = np.empty_like(m)
-    for i in range(3):
-        for j in range(3):
-            (a, b), (c, d) = [((i + 1) % 3, (i + 2) % 3), ((j + 1) % 3, (j + 2) % 3)]
-            cofactors[i, j] = m[a, c] * m[b, d] - m[a, d] * m[b, c]
-    determinant = (m[0] * cofactors[0]).sum(axis=0)
-    solved: NDArray[np.float64] = np.einsum("jihw,hwjl->hwil", cofactors, right)
-    return np.asarray(solved / np.maximum(determinant, 1e-30)[..., None, None], np.float32)
 
 
 def _applied(coefficients: FloatArray, guide: FloatArray, copy: FaceScale) -> FloatArray:
@@ -93,14 +62,3 @@ def _applied(coefficients: FloatArray, guide: FloatArray, copy: FaceScale) -> Fl
         for c in range(3):
             planes[4 * k + 3] += planes[4 * k + c] * channels[c]
     return np.stack([planes[3], planes[7]])
-
-
-def _boxed(values: FloatArray, side: int) -> FloatArray:
-    """Means over square windows; OpenCV filters at most four channels at a time."""
-    import cv2
-
-    planes = [
-        cv2.blur(np.ascontiguousarray(values[..., k : k + 4]), (side, side), borderType=cv2.BORDER_REFLECT)
-        for k in range(0, values.shape[2], 4)
-    ]
-    return np.concatenate([p.reshape(*values.shape[:2], -1) for p in planes], axis=2)

@@ -55,29 +55,52 @@ def composite(
     mixed = np.empty(estimated.shape if estimated.ndim > relit.ndim else relit.shape, np.float32)
 
     def strip(rows: slice) -> None:
-        before = with_channels_of(estimated[rows], mixed)
-        change = with_channels_of(relit[rows], mixed) - before
+        share = share_of_new(scene, labels, shine, lamps, rows) if masks else None
+        after = relit[rows]
         if wall is not None and labels is not None:
-            farther = with_channels_of(wall[rows], mixed) - with_channels_of(relit[rows], mixed)
-            change += farther * with_channels_of(labels.background[rows], mixed)
-        if masks:
-            change *= with_channels_of(_share_of_new(scene, labels, shine, lamps, rows), mixed)
-        if response is not None:
-            # max(change, 0) * response + min(change, 0)
-            removed = np.minimum(change, 0)
-            np.maximum(change, 0, out=change)
-            change *= with_channels_of(response[rows], mixed)
-            change += removed
-        np.add(before, change, out=mixed[rows])
+            after = with_wall(after, wall[rows], labels.background[rows])
+        mixed[rows] = blended(estimated[rows], after, share, None if response is None else response[rows])
 
     by_strips(strip, mixed.shape)
     return mixed
 
 
-def _share_of_new(
-    scene: Scene, labels: Segmentation | None, shine: Mask | None, lamps: Mask | None, rows: slice
+def with_wall(relit: FloatArray, wall: FloatArray, background: FloatArray) -> FloatArray:
+    """The shading of the head, n x W or n x W x 3, and that of the wall on the background, n x W."""
+    farther = wall - with_channels_of(relit, wall)
+    farther *= with_channels_of(background, farther)
+    farther += with_channels_of(relit, farther)
+    return farther
+
+
+def blended(before: FloatArray, after: FloatArray, share: FloatArray | None, response: FloatArray | None) -> FloatArray:
+    """before + share * (after - before), and what is added times `response`; None stands for 1.
+
+    Args:
+        before, after: n x W or n x W x 3. share, response: n x W.
+
+    Returns:
+        A new array, with three channels if either shading has three.
+    """
+    like = before if before.ndim > after.ndim else after
+    before = with_channels_of(before, like)
+    change = with_channels_of(after, like) - before
+    if share is not None:
+        change *= with_channels_of(share, change)
+    if response is not None:
+        # max(change, 0) * response + min(change, 0)
+        removed = np.minimum(change, 0)
+        np.maximum(change, 0, out=change)
+        change *= with_channels_of(response, change)
+        change += removed
+    change += before
+    return change
+
+
+def share_of_new(
+    scene: Scene, labels: Segmentation | None, shine: Mask | None, lamps: Mask | None, rows: slice = slice(None)
 ) -> FloatArray:
-    """The share of the new shading at each pixel, H x W; at least one of the three masks is there."""
+    """The share of the new shading at each pixel of the rows; at least one of the three masks is there."""
     keeping = [(shine, scene.hair), (lamps, 1.0)]
     if labels is not None:
         keeping.append((labels.background, 1 - scene.background))

@@ -63,19 +63,22 @@ def _with_highlights(image: Image, highlights: FloatArray) -> FloatArray:
     """Pixels of the picture with linear light added; sRGB-encoded ones become at most white."""
     if image.encoding == "linear":
         return image.pixels + highlights
-    pixels = np.empty_like(image.pixels)
-
-    def strip(rows: slice) -> None:
-        part = pixels[rows].reshape(-1)
-        part[...] = image.pixels[rows].reshape(-1)
-        # Where no light is added the value stays to the last bit.
-        places = np.flatnonzero(highlights[rows].reshape(-1) > 0)
-        if len(places):
-            light, own = highlights[rows].reshape(-1).take(places), part.take(places)
-            # On bright skin a highlight fades into white instead of burning out: the share of the way to white that it
-            # takes on black. A value above white stays.
-            before = decode_srgb(own)
-            part[places] = np.maximum(encode_srgb(before + np.minimum(light, 1) * np.maximum(1 - before, 0)), own)
-
-    by_strips(strip, pixels.shape)
+    pixels = image.pixels.copy()
+    by_strips(lambda rows: with_light(pixels[rows], highlights[rows], encoded=True), pixels.shape)
     return pixels
+
+
+def with_light(pixels: FloatArray, light: FloatArray, encoded: bool) -> None:
+    """Add linear light, n x W x 3, to a part of a picture in place."""
+    if not encoded:
+        pixels += light
+        return
+    part = pixels.reshape(-1)
+    # Where no light is added the value stays to the last bit.
+    places = np.flatnonzero(light.reshape(-1) > 0)
+    if len(places):
+        few, own = light.reshape(-1).take(places), part.take(places)
+        # On bright skin a highlight fades into white instead of burning out: the share of the way to white that it
+        # takes on black. A value above white stays.
+        before = decode_srgb(own)
+        part[places] = np.maximum(encode_srgb(before + np.minimum(few, 1) * np.maximum(1 - before, 0)), own)

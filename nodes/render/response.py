@@ -49,15 +49,27 @@ def response(
         H x W in [0, 1]: on skin 1, or less where it is dark and rough; elsewhere own / estimated, at most 1. If a tenth
         of the skin gets less than half of the light, there is a warning.
     """
-    ratio = np.clip(own / np.maximum(channel_mean(estimated), np.float32(floor)), 0, 1)
-    on_skin = np.float32(1)
+    on_skin: FloatArray | np.float32 = np.float32(1)
     if photo is not None and landmarks is not None:
         brightness = channel_mean(photo.pixels)
         darkest = rough_below(brightness, labels.face, landmarks, rougher)
         if darkest > 0:
-            on_skin = np.clip(brightness / np.float32(darkest), 0, 1)
+            on_skin = of_dark_skin(brightness, darkest)
             _tell_of_black(on_skin, labels.face)
-    return np.asarray(ratio + (on_skin - ratio) * labels.face, np.float32)
+    return reflected_share(own, estimated, labels.face, on_skin, floor)
+
+
+def reflected_share(
+    own: Shading, estimated: Shading, face: Mask, on_skin: FloatArray | np.float32, floor: float
+) -> FloatArray:
+    """own / estimated beside the face, at most 1, and `on_skin` on it: H x W."""
+    ratio = np.clip(own / np.maximum(channel_mean(estimated), np.float32(floor)), 0, 1)
+    return np.asarray(ratio + (on_skin - ratio) * face, np.float32)
+
+
+def of_dark_skin(brightness: FloatArray, darkest: float) -> FloatArray:
+    """The share of added light that skin takes which is noisy below the brightness `darkest`, above 0."""
+    return np.asarray(np.clip(brightness / np.float32(darkest), 0, 1), np.float32)
 
 
 def _tell_of_black(response: FloatArray, face: Mask) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 
@@ -59,6 +61,50 @@ class TestRelight:
         assert 0 < np.abs(one - two).max() < 0.05
 
 
+@pytest.fixture(scope="module")
+def large(astronaut):
+    """The photograph enlarged threefold, so that its eyes are farther apart than the working size asks for."""
+    import cv2
+
+    return image_from_array(np.clip(cv2.resize(astronaut.pixels[:340, 50:390], None, fx=3, fy=3), 0, 1))
+
+
+class TestWorkingSize:
+    LIGHT: ClassVar = {"ambient": 0.2, "background": 0.5, "lights": [{"type": "directional", "azimuth": -60}]}
+
+    def test_a_photo_of_that_size_is_relit_as_it_is(self, astronaut):
+        """Every byte is that of a graph without a working size."""
+        one, other = (
+            relit(astronaut, self.LIGHT, set={"face/working_size.resolution": pixels}).pixels for pixels in (160, None)
+        )
+        np.testing.assert_array_equal(one, other)
+
+    def test_a_large_photo_is_relit_as_if_at_its_own_size(self, large):
+        """Nothing that an eye would see is lost, and the picture has the photo's size."""
+        one, other = (
+            relit(large, self.LIGHT, set={"face/working_size.resolution": pixels}).pixels for pixels in (80, None)
+        )
+        assert one.shape == other.shape
+        assert not np.array_equal(one, other)
+        assert np.square(one - other).mean() < 1e-4
+
+    def test_another_method_changes_a_large_photo(self, large):
+        """What the formulas of the shipped graph do not say of the result is added."""
+        choices = {"replace": {"face/detail": "detail.none"}}
+        one, other = (
+            relit(large, self.LIGHT, set={"face/working_size.resolution": pixels}, **choices).pixels
+            for pixels in (80, None)
+        )
+        shipped = relit(large, self.LIGHT, set={"face/working_size.resolution": 80}).pixels
+        assert np.square(one - other).mean() < np.square(shipped - other).mean() / 2
+
+    def test_hardly_any_light_returns_a_large_photo(self, large):
+        """By 1/255, as at its own size."""
+        hardly = {"mode": "add", "lights": [{"type": "directional", "azimuth": -60, "intensity": 1e-7}]}
+        pixels = relit(large, hardly, set={"face/working_size.resolution": 80}).pixels
+        assert np.abs(pixels - large.pixels).max() <= 1 / 255
+
+
 def planned(scene, outputs=("image",)):
     """Fate and reason of every node for a scene, before anything runs."""
     from graphface import Evaluator
@@ -77,7 +123,7 @@ class TestOnlyWhatTheSceneCallsFor:
         """The scene that changes nothing runs no face operator at all."""
         nodes = planned({"mode": "add"})
         ran = {name for name, node in nodes.items() if node.fate == "run"}
-        assert ran == {"face/working", "relit", "image"}
+        assert ran == {"full_size", "image"}
         assert "photo's own light" in str(nodes["face/mesh"].reason)
 
     @pytest.mark.parametrize(
