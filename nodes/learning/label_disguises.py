@@ -1,0 +1,204 @@
+"""Training pictures of people who look different: hair of somebody else, dyed hair, a scarf, make-up, bare shoulders.
+
+Official portraits show short hair, suits and little make-up. What is put on has known labels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.random import Generator
+
+from graphface.nodes.face_outlines import CHEEKS, EYES, LIDS, LIPS
+from graphface.nodes.learning.label_pictures import TrainingPicture
+from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
+from graphface.nodes.types import FloatArray, Landmarks
+
+BORROWED, DYED, SCARF, BARE, PAINTED = 0.3, 0.2, 0.04, 0.25, 0.35
+"""Chance of each disguise."""
+
+CHIN, FOREHEAD = 152, 10
+"""FaceMesh points."""
+
+_FINE = 4
+"""Supersampling of painted outlines."""
+
+
+@dataclass
+class Person:
+    """What the grid shows, HEIGHT x WIDTH (x 3, x 2): `pixels` sRGB, `labels` face and hair, `person` all but backdrop.
+
+    `landmarks` in the grid's pixels.
+    """
+
+    pixels: FloatArray
+    labels: FloatArray
+    person: FloatArray
+    landmarks: Landmarks
+
+
+def disguised(own: Person, donors: Sequence[TrainingPicture], random: Generator) -> Person:
+    """The same person under random disguises. `donors`: pictures with much hair."""
+    if donors and random.random() < BORROWED:
+        own = with_hair_of(own, donors[int(random.integers(len(donors)))], random)
+    if random.random() < BARE:
+        own = bare_shouldered(own, random)
+    if random.random() < DYED:
+        own = dyed(own, random)
+    elif random.random() < SCARF:
+        own = with_scarf(own, random)
+    if random.random() < PAINTED and own.landmarks.scheme == "facemesh468":
+        own = painted(own, random)
+    return own
+
+
+def with_hair_of(own: Person, donor: TrainingPicture, random: Generator) -> Person:
+    """With the hair of another picture before the head; the hair that is seen beside it takes its color, mostly."""
+    grid = upright_grid(donor.landmarks)
+    matrix = grid.matrix.copy()
+    matrix[:, 2] += random.normal(0, 0.05 * UNIT, 2)
+    grid = type(grid)(matrix)
+    pixels, labels = (np.asarray(grid.sampled(part) / 255, np.float32) for part in (donor.pixels, donor.labels))
+    if random.random() < 0.5:
+        pixels, labels = pixels[:, ::-1], labels[:, ::-1]
+    # What is half hair half backdrop would bring the backdrop along.
+    alpha = np.clip((labels[..., 1] - 0.35) / 0.5, 0, 1)
+    before = _lab(own.pixels)
+    if random.random() < 0.8 and alpha.sum() > 1:
+        wanted = np.average(_lab(pixels).reshape(-1, 3), axis=0, weights=alpha.ravel())
+        before = _moved(before, own.labels[..., 1], wanted)
+    shown = _rgb(before)
+    shown += alpha[..., None] * (pixels - shown)
+    own_labels = own.labels * (1 - alpha[..., None])
+    own_labels[..., 1] += alpha
+    return Person(shown, own_labels, np.maximum(own.person, alpha), own.landmarks)
+
+
+def dyed(own: Person, random: Generator) -> Person:
+    """With hair of any color: black to white, fair, red, or dyed in a color that no hair has."""
+    kind = random.random()
+    if kind < 0.35:
+        wanted = np.array([random.uniform(5, 95), random.normal(2, 3), random.normal(5, 5)])
+    elif kind < 0.65:
+        wanted = np.array([random.uniform(45, 90), random.normal(5, 4), random.normal(22, 8)])
+    else:
+        angle, strength = random.uniform(0, 2 * np.pi), random.uniform(15, 65)
+        wanted = np.array([random.uniform(15, 80), strength * np.cos(angle), strength * np.sin(angle)])
+    lab = _moved(_lab(own.pixels), own.labels[..., 1], wanted, np.exp(random.normal(0, 0.3)))
+    return Person(_rgb(lab), own.labels, own.person, own.landmarks)
+
+
+def with_scarf(own: Person, random: Generator) -> Person:
+    """With cloth in place of hair; cloth is background."""
+    import cv2
+
+    hair = own.labels[..., 1]
+    cloth = np.clip(cv2.GaussianBlur(cv2.dilate(hair, np.ones((3, 3), np.uint8)), (0, 0), 0.7) * 1.5, 0, 1)
+    cloth = cloth * (1 - own.labels[..., 0]) if random.random() < 0.5 else cloth * (1 - (own.labels[..., 0] > 0.9))
+    color, other = random.uniform(0, 1, 3), random.uniform(0, 1, 3)
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    period, angle = random.uniform(4, 20), random.uniform(0, np.pi)
+    stripe = 0.5 + 0.5 * np.sin(2 * np.pi * (x * np.cos(angle) + y * np.sin(angle)) / period)
+    pattern = color + (stripe[..., None] > 0.5) * (other - color) * (random.random() < 0.35)
+    lightness = cv2.GaussianBlur(own.pixels.mean(axis=2), (0, 0), 1.5)
+    folds = (lightness / max(float((lightness * cloth).sum() / max(cloth.sum(), 1.0)), 0.05))[..., None]
+    shown = own.pixels + cloth[..., None] * (np.clip(pattern * (0.6 + 0.4 * folds), 0, 1) - own.pixels)
+    return Person(
+        shown.astype(np.float32), own.labels * (1 - cloth[..., None]), np.maximum(own.person, cloth), own.landmarks
+    )
+
+
+def bare_shouldered(own: Person, random: Generator) -> Person:
+    """With skin in place of clothes above a neckline, which is face by the labels' meaning."""
+    import cv2
+
+    face = own.labels[..., 0]
+    if face.sum() < 20:
+        return own
+    clothes = np.clip(own.person - face - own.labels[..., 1], 0, 1)
+    lab = _lab(own.pixels)
+    skin = np.median(lab[face > 0.8], axis=0) if (face > 0.8).any() else np.array([60.0, 16, 18])
+    folds = cv2.GaussianBlur(np.ascontiguousarray(lab[..., 0]), (0, 0), random.uniform(1.5, 4))
+    folds = folds - (folds * clothes).sum() / max(float(clothes.sum()), 1.0)
+    y, x = np.mgrid[:HEIGHT, :WIDTH].astype(np.float32)
+    shaded = np.empty_like(lab)
+    shaded[..., 0] = skin[0] + random.normal(-4, 6) + random.uniform(0, 0.35) * folds
+    shaded[..., 0] += random.normal(0, 6) * (x / WIDTH - 0.5) + random.normal(-4, 6) * (y / HEIGHT - 0.7)
+    shaded[..., 1:] = skin[1:] + random.normal(0, 2.5, 2)
+    chin, middle = own.landmarks.points[CHIN if own.landmarks.scheme == "facemesh468" else 8, 1::-1]
+    slope = random.normal(0, 0.5)
+    line = chin + UNIT * random.uniform(0.4, 3.0) + slope * np.abs(x - middle)
+    bare = clothes * np.clip(line - y + 0.5, 0, 1)
+    shown = own.pixels + bare[..., None] * (_rgb(shaded) - own.pixels)
+    labels = own.labels.copy()
+    labels[..., 0] += bare
+    return Person(shown, labels, own.person, own.landmarks)
+
+
+def painted(own: Person, random: Generator) -> Person:
+    """With lipstick, lids, cheeks and foundation in random colors; now and then paint all over the face."""
+    face, points = own.labels[..., 0], own.landmarks.points[:, :2]
+    shown = own.pixels.copy()
+
+    def paint(area: FloatArray, color: np.ndarray, opacity: float) -> None:
+        shown[...] += (face * area * np.float32(opacity))[..., None] * (color.astype(np.float32) - shown)
+
+    wild = random.random() < 0.3
+    if random.random() < 0.5:
+        oval = _filled([tuple(range(len(points)))], points, 0.8, hull=True)
+        skin = np.median(shown[face > 0.8], axis=0) if (face > 0.8).any() else np.full(3, 0.6)
+        tone = skin + (1 - skin) * random.uniform(0, 0.6) if random.random() < 0.6 else skin * random.uniform(0.6, 1)
+        paint(oval, random.uniform(0, 1, 3) if wild else tone, random.uniform(0.2, 0.9 if wild else 0.6))
+    for areas, chance, width in ((LIDS, 0.7, 1.0), (CHEEKS, 0.4, 2.0), (EYES, 0.5, 0.5), ((LIPS,), 0.7, 0.4)):
+        if random.random() < chance:
+            color = random.uniform(0, 1, 3)
+            if areas[0] is LIPS and random.random() < 0.6:
+                color = np.array([random.uniform(0.3, 0.9), *random.uniform(0, 0.35, 2)])
+            paint(_filled(areas, points, width * random.uniform(0.6, 1.6)), color, random.uniform(0.2, 0.95))
+    if wild:
+        for _ in range(int(random.integers(1, 5))):
+            middle, size = points[int(random.integers(len(points)))], random.uniform(0.1, 0.5) * UNIT
+            y, x = np.mgrid[:HEIGHT, :WIDTH]
+            distance = np.hypot(x - middle[0], (y - middle[1]) * random.uniform(0.4, 2.5))
+            paint(np.clip(size - distance, 0, 1).astype(np.float32), random.uniform(0, 1, 3), random.uniform(0.3, 1))
+    return Person(np.clip(shown, 0, 1), own.labels, own.person, own.landmarks)
+
+
+def _filled(outlines: Sequence[Sequence[int]], points: FloatArray, blur: float, hull: bool = False) -> FloatArray:
+    """1 within the outlines, with soft edges."""
+    import cv2
+
+    area = np.zeros((HEIGHT * _FINE, WIDTH * _FINE), np.float32)
+    for outline in outlines:
+        polygon = np.rint((points[list(outline)] + 0.5) * _FINE).astype(np.int32)
+        cv2.fillPoly(area, [cv2.convexHull(polygon) if hull else polygon], 1.0)
+    small = cv2.resize(area, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)
+    return np.asarray(cv2.GaussianBlur(small, (0, 0), max(blur, 0.3)), np.float32)
+
+
+def _moved(lab: FloatArray, mask: FloatArray, wanted: np.ndarray, contrast: float = 1.0) -> FloatArray:
+    """Colors under a mask, moved so that their mean is `wanted`."""
+    total = float(mask.sum())
+    if total < 1:
+        return lab
+    middle = (lab * mask[..., None]).sum(axis=(0, 1)) / total
+    # Dark hair has little contrast in its lightness; made fair it has more.
+    gain = contrast * np.clip((wanted[0] + 10) / (middle[0] + 10), 0.5, 2.0)
+    changed = wanted + (lab - middle) * (gain, contrast, contrast)
+    return np.asarray(lab + mask[..., None] * (changed - lab), np.float32)
+
+
+def _lab(pixels: FloatArray) -> FloatArray:
+    import cv2
+
+    return np.asarray(cv2.cvtColor(np.ascontiguousarray(np.clip(pixels, 0, 1)), cv2.COLOR_RGB2Lab), np.float32)
+
+
+def _rgb(lab: FloatArray) -> FloatArray:
+    import cv2
+
+    lab = np.asarray(lab, np.float32).copy()
+    lab[..., 0] = np.clip(lab[..., 0], 0, 100)
+    return np.clip(np.asarray(cv2.cvtColor(lab, cv2.COLOR_Lab2RGB), np.float32), 0, 1)
