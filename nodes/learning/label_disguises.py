@@ -73,7 +73,7 @@ def with_hair_of(own: Person, donor: TrainingPicture, random: Generator) -> Pers
     shown += alpha[..., None] * (pixels - shown)
     own_labels = own.labels * (1 - alpha[..., None])
     own_labels[..., 1] += alpha
-    return Person(shown, own_labels, np.maximum(own.person, alpha), own.landmarks)
+    return Person(shown, own_labels, alpha + (1 - alpha) * own.person, own.landmarks)
 
 
 def dyed(own: Person, random: Generator) -> Person:
@@ -106,7 +106,7 @@ def with_scarf(own: Person, random: Generator) -> Person:
     folds = (lightness / max(float((lightness * cloth).sum() / max(cloth.sum(), 1.0)), 0.05))[..., None]
     shown = own.pixels + cloth[..., None] * (np.clip(pattern * (0.6 + 0.4 * folds), 0, 1) - own.pixels)
     return Person(
-        shown.astype(np.float32), own.labels * (1 - cloth[..., None]), np.maximum(own.person, cloth), own.landmarks
+        shown.astype(np.float32), own.labels * (1 - cloth[..., None]), cloth + (1 - cloth) * own.person, own.landmarks
     )
 
 
