@@ -50,7 +50,7 @@ def example(
     inside = sampled(picture.inside) > 0.5
     if random.random() < CONTINUED:
         inside = np.maximum.accumulate(inside, axis=0)
-    inside = inside * _frame(random)
+    framed = inside * _frame(random)
     seen = Person(sampled(picture.pixels), sampled(picture.labels), sampled(picture.person), grid.to_grid(landmarks))
     if random.random() < BEFORE_ANOTHER:
         new = backdrop(others, _colors(seen, random), random)
@@ -60,11 +60,11 @@ def example(
     pixels, labels, person = seen.pixels, seen.labels, seen.person
     pixels = _recolored(pixels, labels, person, random)
     pixels = _recaptured(_lit(pixels, random), random)
-    input_ = network_input(pixels, np.asarray(inside, np.float32), grid.layout(landmarks))
+    input_ = network_input(pixels, np.asarray(framed, np.float32), grid.layout(landmarks))
     target = np.dstack([labels, np.maximum(1 - labels.sum(axis=2), 0)])
     target /= np.maximum(target.sum(axis=2, keepdims=True), 1e-6)
     certainty = np.clip(2 * target.max(axis=2) - 1, 0, 1)
-    weight = inside * (UNCERTAIN_WEIGHT + (1 - UNCERTAIN_WEIGHT) * certainty)
+    weight = framed * (UNCERTAIN_WEIGHT + (1 - UNCERTAIN_WEIGHT) * certainty)
     if random.random() < 0.5:
         input_, target, weight = mirrored_input(input_), target[:, ::-1], weight[:, ::-1]
     return Example(
