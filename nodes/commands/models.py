@@ -155,7 +155,11 @@ def labels(
     steps: Annotated[int | None, typer.Option(min=1, help="Steps of eight pictures; as shipped by default.")] = None,
     card: Annotated[Path | None, typer.Option(help="JSON with more for the model's card.")] = None,
 ) -> None:
-    """Learn the small network of masks.cue; needs PyTorch and graphface[network]. The shipped one was made so."""
+    """Learn the small network of masks.cue; needs PyTorch and graphface[network]. The shipped one was made so.
+
+    Each picture is varied: another frame, light and backdrop, hair of somebody else or dyed, a scarf, paint, bare
+    shoulders. --kept holds labelled photographs; a run that was stopped does not label them again.
+    """
     from dataclasses import replace
 
     from graphface.nodes.learning.face_model import read_card

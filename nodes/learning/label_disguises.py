@@ -6,41 +6,26 @@ Official portraits show short hair, suits and little make-up. What is put on has
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.random import Generator
 
-from graphface.nodes.face_outlines import CHEEKS, EYES, LIDS, LIPS
+from graphface.nodes.learning.label_paint import Person, painted
 from graphface.nodes.learning.label_pictures import TrainingPicture
 from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
-from graphface.nodes.types import FloatArray, Landmarks
+from graphface.nodes.types import FloatArray
 
-BORROWED, DYED, SCARF, BARE, PAINTED = 0.3, 0.2, 0.04, 0.25, 0.35
+RESHAPED, BORROWED, DYED, SCARF, BARE, PAINTED = 0.4, 0.3, 0.2, 0.06, 0.25, 0.35
 """Chance of each disguise."""
 
 CHIN, FOREHEAD = 152, 10
 """FaceMesh points."""
 
-_FINE = 4
-"""Supersampling of painted outlines."""
-
-
-@dataclass
-class Person:
-    """What the grid shows, HEIGHT x WIDTH (x 3, x 2): `pixels` sRGB, `labels` face and hair, `person` all but backdrop.
-
-    `landmarks` in the grid's pixels.
-    """
-
-    pixels: FloatArray
-    labels: FloatArray
-    person: FloatArray
-    landmarks: Landmarks
-
 
 def disguised(own: Person, donors: Sequence[TrainingPicture], random: Generator) -> Person:
     """The same person under random disguises. `donors`: pictures with much hair."""
+    if random.random() < RESHAPED:
+        own = reshaped(own, random)
     if donors and random.random() < BORROWED:
         own = with_hair_of(own, donors[int(random.integers(len(donors)))], random)
     if random.random() < BARE:
@@ -58,7 +43,8 @@ def with_hair_of(own: Person, donor: TrainingPicture, random: Generator) -> Pers
     """With the hair of another picture before the head; the hair that is seen beside it takes its color, mostly."""
     grid = upright_grid(donor.landmarks)
     matrix = grid.matrix.copy()
-    matrix[:, 2] += random.normal(0, 0.05 * UNIT, 2)
+    # Now and then it hangs over a cheek.
+    matrix[:, 2] += random.normal(0, (0.05 if random.random() < 0.7 else 0.2) * UNIT, 2)
     grid = type(grid)(matrix)
     pixels, labels = (np.asarray(grid.sampled(part) / 255, np.float32) for part in (donor.pixels, donor.labels))
     if random.random() < 0.5:
@@ -102,7 +88,7 @@ def with_scarf(own: Person, random: Generator) -> Person:
     period, angle = random.uniform(4, 20), random.uniform(0, np.pi)
     stripe = 0.5 + 0.5 * np.sin(2 * np.pi * (x * np.cos(angle) + y * np.sin(angle)) / period)
     pattern = color + (stripe[..., None] > 0.5) * (other - color) * (random.random() < 0.35)
-    lightness = cv2.GaussianBlur(own.pixels.mean(axis=2), (0, 0), 1.5)
+    lightness = cv2.GaussianBlur(own.pixels.mean(axis=2), (0, 0), 3.0)
     folds = (lightness / max(float((lightness * cloth).sum() / max(cloth.sum(), 1.0)), 0.05))[..., None]
     shown = own.pixels + cloth[..., None] * (np.clip(pattern * (0.6 + 0.4 * folds), 0, 1) - own.pixels)
     return Person(
@@ -137,45 +123,27 @@ def bare_shouldered(own: Person, random: Generator) -> Person:
     return Person(shown, labels, own.person, own.landmarks)
 
 
-def painted(own: Person, random: Generator) -> Person:
-    """With lipstick, lids, cheeks and foundation in random colors; now and then paint all over the face."""
-    face, points = own.labels[..., 0], own.landmarks.points[:, :2]
-    shown = own.pixels.copy()
-
-    def paint(area: FloatArray, color: np.ndarray, opacity: float) -> None:
-        shown[...] += (face * area * np.float32(opacity))[..., None] * (color.astype(np.float32) - shown)
-
-    wild = random.random() < 0.3
-    if random.random() < 0.5:
-        oval = _filled([tuple(range(len(points)))], points, 0.8, hull=True)
-        skin = np.median(shown[face > 0.8], axis=0) if (face > 0.8).any() else np.full(3, 0.6)
-        tone = skin + (1 - skin) * random.uniform(0, 0.6) if random.random() < 0.6 else skin * random.uniform(0.6, 1)
-        paint(oval, random.uniform(0, 1, 3) if wild else tone, random.uniform(0.2, 0.9 if wild else 0.6))
-    for areas, chance, width in ((LIDS, 0.7, 1.0), (CHEEKS, 0.4, 2.0), (EYES, 0.5, 0.5), ((LIPS,), 0.7, 0.4)):
-        if random.random() < chance:
-            color = random.uniform(0, 1, 3)
-            if areas[0] is LIPS and random.random() < 0.6:
-                color = np.array([random.uniform(0.3, 0.9), *random.uniform(0, 0.35, 2)])
-            paint(_filled(areas, points, width * random.uniform(0.6, 1.6)), color, random.uniform(0.2, 0.95))
-    if wild:
-        for _ in range(int(random.integers(1, 5))):
-            middle, size = points[int(random.integers(len(points)))], random.uniform(0.1, 0.5) * UNIT
-            y, x = np.mgrid[:HEIGHT, :WIDTH]
-            distance = np.hypot(x - middle[0], (y - middle[1]) * random.uniform(0.4, 2.5))
-            paint(np.clip(size - distance, 0, 1).astype(np.float32), random.uniform(0, 1, 3), random.uniform(0.3, 1))
-    return Person(np.clip(shown, 0, 1), own.labels, own.person, own.landmarks)
-
-
-def _filled(outlines: Sequence[Sequence[int]], points: FloatArray, blur: float, hull: bool = False) -> FloatArray:
-    """1 within the outlines, with soft edges."""
+def reshaped(own: Person, random: Generator) -> Person:
+    """With hair that stands out more or less, necks and shoulders of another width: the face itself stays."""
     import cv2
 
-    area = np.zeros((HEIGHT * _FINE, WIDTH * _FINE), np.float32)
-    for outline in outlines:
-        polygon = np.rint((points[list(outline)] + 0.5) * _FINE).astype(np.int32)
-        cv2.fillPoly(area, [cv2.convexHull(polygon) if hull else polygon], 1.0)
-    small = cv2.resize(area, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)
-    return np.asarray(cv2.GaussianBlur(small, (0, 0), max(blur, 0.3)), np.float32)
+    y, x = np.mgrid[:HEIGHT, :WIDTH].astype(np.float32)
+    middle = own.landmarks.points[:, :2].mean(axis=0)
+    away = np.stack([x - middle[0], y - middle[1]], axis=2)
+    coarse = random.normal(0, 0.12 * UNIT, (6, 5, 2)).astype(np.float32)
+    moved = cv2.resize(coarse, (WIDTH, HEIGHT), interpolation=cv2.INTER_CUBIC) + away * np.float32(
+        random.normal(0, 0.1)
+    )
+    # Ears and the rim of the face begin .5 from its middle.
+    moved *= np.clip(np.hypot(away[..., 0], away[..., 1]) / UNIT - 0.6, 0, 1)[..., None]
+
+    def warped(values: FloatArray) -> FloatArray:
+        found = cv2.remap(
+            values, x + moved[..., 0], y + moved[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+        )
+        return np.asarray(found, np.float32)
+
+    return Person(warped(own.pixels), warped(own.labels), warped(own.person), own.landmarks)
 
 
 def _moved(lab: FloatArray, mask: FloatArray, wanted: np.ndarray, contrast: float = 1.0) -> FloatArray:

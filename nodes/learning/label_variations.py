@@ -9,7 +9,8 @@ import numpy as np
 from numpy.random import Generator
 
 from graphface.nodes.learning.label_backdrops import Color, backdrop
-from graphface.nodes.learning.label_disguises import Person, disguised
+from graphface.nodes.learning.label_disguises import disguised
+from graphface.nodes.learning.label_paint import Person
 from graphface.nodes.learning.label_pictures import Bytes, TrainingPicture
 from graphface.nodes.masks.network_input import mirrored_input, network_input
 from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
