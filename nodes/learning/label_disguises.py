@@ -15,7 +15,7 @@ from graphface.nodes.learning.label_pictures import TrainingPicture
 from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
 from graphface.nodes.types import FloatArray
 
-RESHAPED, BORROWED, DYED, SCARF, BARE, PAINTED = 0.4, 0.3, 0.2, 0.06, 0.25, 0.35
+RESHAPED, BORROWED, DYED, SCARF, BARE, PAINTED = 0.4, 0.35, 0.25, 0.08, 0.25, 0.35
 """Chance of each disguise."""
 
 CHIN, FOREHEAD = 152, 10
@@ -63,15 +63,17 @@ def with_hair_of(own: Person, donor: TrainingPicture, random: Generator) -> Pers
 
 
 def dyed(own: Person, random: Generator) -> Person:
-    """With hair of any color: black to white, fair, red, or dyed in a color that no hair has."""
-    kind = random.random()
-    if kind < 0.35:
+    """With hair of any color: like the skin beside it, black to white, fair, red, or in a color that no hair has."""
+    kind, skin = random.random(), own.labels[..., 0] > 0.8
+    if kind < 0.25 and skin.any():
+        wanted = np.median(_lab(own.pixels)[skin], axis=0) + random.normal(0, 1, 3) * (9, 3, 5)
+    elif kind < 0.45:
         wanted = np.array([random.uniform(5, 95), random.normal(2, 3), random.normal(5, 5)])
-    elif kind < 0.65:
+    elif kind < 0.7:
         wanted = np.array([random.uniform(45, 90), random.normal(5, 4), random.normal(22, 8)])
     else:
         angle, strength = random.uniform(0, 2 * np.pi), random.uniform(15, 65)
-        wanted = np.array([random.uniform(15, 80), strength * np.cos(angle), strength * np.sin(angle)])
+        wanted = np.array([random.uniform(8, 80), strength * np.cos(angle), strength * np.sin(angle)])
     lab = _moved(_lab(own.pixels), own.labels[..., 1], wanted, np.exp(random.normal(0, 0.3)))
     return Person(_rgb(lab), own.labels, own.person, own.landmarks)
 

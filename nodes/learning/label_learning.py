@@ -47,7 +47,7 @@ class Schedule:
     heads: int = 20
     rendered: int = 5
     renderings: int = 800
-    steps: int = 20000
+    steps: int = 16000
     seed: int = 0
 
 
