@@ -13,7 +13,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from graphface.nodes.learning.label_pictures import TrainingPicture
-from graphface.nodes.masks.upright_grid import HEIGHT, WIDTH
+from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH
 from graphface.nodes.types import FloatArray
 
 Color = NDArray[np.float64]
@@ -42,6 +42,21 @@ def backdrop(others: Sequence[TrainingPicture], own: Sequence[Color], random: Ge
     else:
         color = random.uniform(0, 1, 3)
     return _wall(color, random)
+
+
+def padding(middle: FloatArray, random: Generator) -> FloatArray:
+    """1 in margins along one to three sides, tilted as those of a photo that was turned upright; HEIGHT x WIDTH.
+
+    Args:
+        middle: (2,), x and y of the face's middle, which stays free.
+    """
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    tilt, cut = random.normal(0, 0.15), np.zeros((HEIGHT, WIDTH), np.float32)
+    for side in random.permutation(4)[: int(random.integers(1, 4))]:
+        angle = side * np.pi / 2 + tilt
+        beyond = (x - middle[0]) * np.cos(angle) + (y - middle[1]) * np.sin(angle) - UNIT * random.uniform(0.9, 2.6)
+        cut = np.maximum(cut, np.clip(beyond + 0.5, 0, 1).astype(np.float32))
+    return cut
 
 
 def _wall(color: Color, random: Generator) -> FloatArray:

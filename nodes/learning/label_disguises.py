@@ -51,6 +51,9 @@ def with_hair_of(own: Person, donor: TrainingPicture, random: Generator) -> Pers
         pixels, labels = pixels[:, ::-1], labels[:, ::-1]
     # What is half hair half backdrop would bring the backdrop along.
     alpha = np.clip((labels[..., 1] - 0.35) / 0.5, 0, 1)
+    if random.random() < 0.25:  # on one side alone, as a tail or a plait
+        right = np.arange(WIDTH) > own.landmarks.points[:, 0].mean()
+        alpha = alpha * (right if random.random() < 0.5 else ~right)
     before = _lab(own.pixels)
     if random.random() < 0.8 and alpha.sum() > 1:
         wanted = np.average(_lab(pixels).reshape(-1, 3), axis=0, weights=alpha.ravel())

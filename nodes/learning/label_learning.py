@@ -42,12 +42,12 @@ class Schedule:
     """
 
     photos: int = 60
-    portraits: int = 40
+    portraits: int = 36
     people: int = 20
     heads: int = 20
     rendered: int = 5
     renderings: int = 800
-    steps: int = 16000
+    steps: int = 15000
     seed: int = 0
 
 

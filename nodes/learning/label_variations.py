@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.random import Generator
 
-from graphface.nodes.learning.label_backdrops import Color, backdrop
+from graphface.nodes.learning.label_backdrops import Color, backdrop, padding
 from graphface.nodes.learning.label_disguises import disguised
 from graphface.nodes.learning.label_paint import Person
 from graphface.nodes.learning.label_pictures import Bytes, TrainingPicture
@@ -24,6 +24,9 @@ BEFORE_ANOTHER = 0.6
 
 CONTINUED = 0.3
 """Share of pictures that go on below the photo's frame with what stands at its edge, as clothes and long hair do."""
+
+PADDED = 0.2
+"""Share of pictures with margins of one grey within their frame."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,10 @@ def example(
     pixels, labels, person = seen.pixels, seen.labels, seen.person
     pixels = _recolored(pixels, labels, person, random)
     pixels = _recaptured(_lit(pixels, random), random)
+    if random.random() < PADDED:
+        margin = padding(seen.landmarks.points[:, :2].mean(axis=0), random)[..., None]
+        pixels = pixels + margin * (np.float32(random.choice([0, 0, 0, 1, random.random()])) - pixels)
+        labels = labels * (1 - margin)
     input_ = network_input(pixels, np.asarray(framed, np.float32), grid.layout(landmarks))
     target = np.dstack([labels, np.maximum(1 - labels.sum(axis=2), 0)])
     target /= np.maximum(target.sum(axis=2, keepdims=True), 1e-6)
