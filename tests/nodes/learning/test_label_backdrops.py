@@ -7,7 +7,7 @@ from drawn import PICTURE
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphface.nodes.learning.label_backdrops import backdrop
+from graphface.nodes.learning.label_backdrops import backdrop, padding
 from graphface.nodes.masks.upright_grid import HEIGHT, WIDTH
 
 
@@ -34,3 +34,14 @@ class TestBackdrop:
         skin = np.array([0.8, 0.5, 0.35])
         means = [backdrop([PICTURE], [skin], np.random.default_rng(seed)).mean(axis=(0, 1)) for seed in range(60)]
         assert min(np.abs(mean - skin).max() for mean in means) < 0.1
+
+
+class TestPadding:
+    def test_beside_the_face(self):
+        """Some of the grid is margin, the middle of the face never."""
+        middle = np.array([WIDTH / 2, HEIGHT / 2], np.float32)
+        for seed in range(10):
+            found = padding(middle, np.random.default_rng(seed))
+            assert found.shape == (HEIGHT, WIDTH)
+            assert found[HEIGHT // 2, WIDTH // 2] == 0
+            assert found.max() == 1
