@@ -1,7 +1,7 @@
 """The weights of the label network from photographs and path-traced heads: `graphface models labels`.
 
-The shipped weights were made by it, see their card. Their accuracy on people outside the training set was measured with
-other weights, trained by the same schedule on three quarters of the varied portraits, split by person and source.
+The shipped weights were made by it, see their card, from official portraits and rendered heads alone: what is published
+for research may judge them, but does not teach them.
 """
 
 from __future__ import annotations
