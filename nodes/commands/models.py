@@ -141,23 +141,35 @@ def labels(
         Path | None, typer.Option(help="Photographs, several of each person: PERSON_anything.jpg.")
     ] = None,
     data: Annotated[Path | None, typer.Option(help="Folder of ground truth; it holds truth/.")] = None,
+    rendered: Annotated[Path | None, typer.Option(help="Folder that `models render` filled.")] = None,
+    only: Annotated[
+        list[str] | None, typer.Option(help="Names of PHOTOS to learn from: 'pd_*'; may be repeated.")
+    ] = None,
     without: Annotated[
         list[str] | None, typer.Option(help="Names to keep out, to be tested on: 'mk_*', 'gt01_*'; may be repeated.")
+    ] = None,
+    kept: Annotated[
+        Path | None, typer.Option(help="Folder for labelled photographs, which another run need not label again.")
     ] = None,
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("labels.safetensors"),
     steps: Annotated[int | None, typer.Option(min=1, help="Steps of eight pictures; as shipped by default.")] = None,
     card: Annotated[Path | None, typer.Option(help="JSON with more for the model's card.")] = None,
 ) -> None:
-    """Learn the small network of masks.cue; needs PyTorch and graphface[network]. The shipped one was made so."""
+    """Learn the small network of masks.cue; needs PyTorch and graphface[network]. The shipped one was made so.
+
+    Each picture is varied: another frame, light and backdrop, hair of somebody else or dyed, a scarf, paint, bare
+    shoulders. --kept holds labelled photographs; a run that was stopped does not label them again.
+    """
     from dataclasses import replace
 
     from graphface.nodes.learning.face_model import read_card
-    from graphface.nodes.learning.label_learning import Schedule, learn_labels
+    from graphface.nodes.learning.label_learning import Schedule, Sources, learn_labels
     from graphface.nodes.masks.label_weights import write_weights
 
     given = read_card(card)
     schedule = Schedule() if steps is None else replace(Schedule(), steps=steps)
-    weights, made = learn_labels(photos, portraits, people, data, schedule, without or ())
+    sources = Sources(photos, portraits, people, data, rendered, only or (), without or (), kept)
+    weights, made = learn_labels(sources, schedule)
     write_weights(weights, {**given, **made}, out)
     print(f"{out}: from {made['variations']} variations of {made['photographs']} photographs and of truth")
 

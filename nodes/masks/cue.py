@@ -3,7 +3,7 @@
 The prior of `masks.prior` knows only the geometry of the face. The network also sees the picture. It distinguishes long
 hair on shoulders from a dark suit, fair hair from skin and a hat from hair, and leaves exact edges to the classifiers
 of this photo. It was trained on the labels of MediaPipe's selfie segmentation (`masks.network`), which is a hundred
-times its size, and on the true labels of path-traced heads; see the card beside the weights.
+times its size, and on the true labels of rendered heads; see the card beside the weights.
 """
 
 from __future__ import annotations

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from portraits import portrait
 
+from graphface.nodes.learning.label_paint import Person
 from graphface.nodes.learning.label_pictures import training_picture
+from graphface.nodes.masks.upright_grid import upright_grid
 
 
 def drawn_picture():
@@ -16,3 +18,10 @@ def drawn_picture():
 
 
 PICTURE = drawn_picture()
+
+
+def drawn_person():
+    """The same head on the network's grid."""
+    grid = upright_grid(PICTURE.landmarks)
+    maps = (grid.sampled(part) / np.float32(255) for part in (PICTURE.pixels, PICTURE.labels, PICTURE.person))
+    return Person(*maps, grid.to_grid(PICTURE.landmarks))
