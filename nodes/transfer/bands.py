@@ -1,0 +1,130 @@
+"""The photo's detail map with the relief of the reference's skin."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from graphface import node
+from graphface.nodes.blur import blurred
+from graphface.nodes.bounding_box import bounding_box
+from graphface.nodes.color import channel_mean
+from graphface.nodes.face_scale import face_scale
+from graphface.nodes.relief import FLOOR, USUAL, WIDTHS, logarithm, relief
+from graphface.nodes.transfer.chosen import Which, chosen
+from graphface.nodes.types import REGIONS, DetailMap, FloatArray, Image, Landmarks, Mask, Regions
+
+if TYPE_CHECKING:
+    Region = str
+else:
+    Region = Literal[REGIONS]  # a type checker cannot read names that are written only once
+
+Band = Literal["pores", "lines", "folds"]
+Strength = Annotated[float, Field(ge=0, le=4)]
+
+_LARGEST_CHANGE = np.float32(1.0)
+"""Of the logarithm of intensity, in either direction."""
+
+_COARSER = 1.2
+"""Ratio of the faces' sizes from which on the reference cannot show the finest of what the photo shows."""
+
+
+@node("transfer.bands")
+def bands(
+    detail: DetailMap,
+    photo: Image,
+    reference: Image,
+    mask: Mask,
+    skin: Mask,
+    landmarks: Landmarks,
+    reference_landmarks: Landmarks,
+    regions: Regions | None = None,
+    *,
+    pores: Strength = 1.0,
+    lines: Strength = 1.0,
+    folds: Strength = 1.0,
+    regional: dict[Region, dict[Band, Strength]] = {},  # noqa: B006 - pydantic copies it
+    which: Which = "all",
+    glints: Annotated[float, Field(ge=0, le=1)] = 0.5,
+    harshest: Annotated[float, Field(gt=0, le=10)] | None = 1.0,
+    resolution: Annotated[int, Field(ge=8, le=256)] = 100,
+) -> DetailMap:
+    """The photo's own relief taken out of its skin and the reference's put in, band by band, as ratios of intensity.
+
+    Its own goes in every channel, so that a glint leaves no grey spot. The reference's comes without color: what is
+    darker multiplies the skin's color; what is brighter is half that and half grey light, as skin reflects it.
+
+    Args:
+        detail: the photo's, additive. reference: warped to the photo.
+        mask: how much is exchanged; where it is 0 the map does not change by a bit.
+        skin: where both photos show skin (`transfer.skin`); relief is measured there only.
+        landmarks, reference_landmarks: their size says what is too fine for the reference to show; that stays.
+        regions: the photo's, for `regional`.
+        pores, lines, folds: strength of the bands up to 0.01, 0.03 and 0.07 inter-ocular distances.
+        regional: factors of a band in a region, on top of its strength.
+        which: "all" exchanges; "deeper" and "smoother" only where the reference has more, or less; "spots" adds the
+            reference's dark spots (freckles, moles), in color, to what the photo has.
+        glints: share of brighter relief that is grey light.
+        harshest: root mean square of a band, as a multiple of what four of five portraits stay below, from which on it
+            is scaled down; None carries a hard light or a sharpened picture as it is.
+        resolution: pixels per inter-ocular distance of the copy on which the relief's base is computed.
+    """
+    box = bounding_box(mask, margin=round(4 * WIDTHS["folds"] * landmarks.interocular))
+    if box is None:
+        return detail
+    copy = face_scale(landmarks, mask[box].shape, resolution)
+    pixels, share, on_skin = photo.pixels[box], mask[box], skin[box]
+    other_pixels = reference.pixels[box] if which == "spots" else channel_mean(reference.pixels[box])[..., None]
+    own = relief(logarithm(pixels), on_skin, copy)
+    other = relief(logarithm(other_pixels), on_skin, copy)
+    coarser = landmarks.interocular / max(reference_landmarks.interocular, 1e-3)
+    taken, given = np.zeros_like(pixels), np.zeros_like(other.pores)
+    for band, strength in {"pores": pores, "lines": lines, "folds": folds}.items():
+        weight = share * np.float32(strength)
+        if regions is not None:
+            weight = weight * _regional(regional, band, regions)[box]
+        if not weight.any():
+            continue
+        mine, theirs = getattr(own, band), getattr(other, band)
+        theirs = theirs * np.float32(_moderation(theirs, share, USUAL[band], harshest))
+        if band == "pores" and coarser > _COARSER:
+            mine = blurred(mine, 0.5 * coarser)
+        out, into = chosen(which, mine, theirs, 2 * WIDTHS[band] * landmarks.interocular)
+        taken += weight[..., None] * out
+        given += weight[..., None] * into
+    offset = detail.offset.copy()
+    offset[box] += _exchanged(pixels, taken, given, np.float32(glints)) - pixels
+    return replace(detail, offset=offset)
+
+
+def _regional(regional: Mapping[str, Mapping[str, float]], band: str, regions: Regions) -> FloatArray:
+    """The factors of a band, H x W."""
+    factor = np.ones_like(regions.nose)
+    for region, factors in regional.items():
+        factor += getattr(regions, region) * np.float32(factors.get(band, 1.0) - 1)
+    return factor
+
+
+def _moderation(band: FloatArray, mask: Mask, usual: float, harshest: float | None) -> float:
+    """The factor by which a band is scaled down."""
+    inside = mask > 0.5
+    if harshest is None or not inside.any():
+        return 1.0
+    strength = float(np.sqrt(np.mean(np.square(band[inside]))))
+    return min(1.0, harshest * usual / max(strength, 1e-4))
+
+
+def _exchanged(pixels: FloatArray, taken: FloatArray, given: FloatArray, glints: np.float32) -> FloatArray:
+    """Pixels without one relief (H x W x 3) and with another (H x W x 1 or 3)."""
+
+    def ratio(change: FloatArray) -> FloatArray:
+        return np.asarray(np.exp(np.clip(change, -_LARGEST_CHANGE, _LARGEST_CHANGE)), np.float32)
+
+    bare = (pixels + FLOOR) * ratio(-taken) - FLOOR
+    brighter = np.maximum(given, 0)
+    grey = (ratio(glints * brighter) - 1) * channel_mean(bare)[..., None]
+    return np.asarray(bare * ratio(given - glints * brighter) + grey, np.float32)
