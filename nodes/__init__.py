@@ -28,7 +28,7 @@ _MODULES = {
     "lamps composite relit fitted_head",
     "light": "scene panorama",
     "scatter": "none gaussian screen_space",
-    "transfer": "mask paint detail recolored bands skin",
+    "transfer": "skin mask bands shine paint detail recolored",
     "warp": "mesh resample",
     "flow": "none dis farneback deepflow tvl1",
     "makeup": "features pigment albedo shading rendered exposed keep detail occluders skin loose_hair beard coverage "

@@ -93,6 +93,8 @@ def bands(
         theirs = theirs * np.float32(_moderation(theirs, share, USUAL[band], harshest))
         if band == "pores" and coarser > _COARSER:
             mine = blurred(mine, 0.5 * coarser)
+        if band == "folds":
+            mine = _without_color_of_shadows(mine)
         out, into = chosen(which, mine, theirs, 2 * WIDTHS[band] * landmarks.interocular)
         taken += weight[..., None] * out
         given += weight[..., None] * into
@@ -107,6 +109,12 @@ def _regional(regional: Mapping[str, Mapping[str, float]], band: str, regions: R
     for region, factors in regional.items():
         factor += getattr(regions, region) * np.float32(factors.get(band, 1.0) - 1)
     return factor
+
+
+def _without_color_of_shadows(folds: FloatArray) -> FloatArray:
+    """What is bright and broad is shine, which is grey; what is dark has the color of the skin and leaves it there."""
+    light = folds.mean(axis=2, keepdims=True)
+    return np.where(light > 0, folds, light)
 
 
 def _moderation(band: FloatArray, mask: Mask, usual: float, harshest: float | None) -> float:
