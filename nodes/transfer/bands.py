@@ -29,6 +29,9 @@ Strength = Annotated[float, Field(ge=0, le=4)]
 _LARGEST_CHANGE = np.float32(1.0)
 """Of the logarithm of intensity, in either direction."""
 
+_FAINT = np.float32(0.01)
+"""Relief, of the logarithm of intensity, that is not seen."""
+
 _COARSER = 1.2
 """Ratio of the faces' sizes from which on the reference cannot show the finest of what the photo shows."""
 
@@ -127,12 +130,21 @@ def _moderation(band: FloatArray, mask: Mask, usual: float, harshest: float | No
 
 
 def _exchanged(pixels: FloatArray, taken: FloatArray, given: FloatArray, glints: np.float32) -> FloatArray:
-    """Pixels without one relief (H x W x 3) and with another (H x W x 1 or 3)."""
+    """Pixels without one relief (H x W x 3) and with another (H x W x 1 or 3).
 
-    def ratio(change: FloatArray) -> FloatArray:
-        return np.asarray(np.exp(np.clip(change, -_LARGEST_CHANGE, _LARGEST_CHANGE)), np.float32)
-
-    bare = (pixels + FLOOR) * ratio(-taken) - FLOOR
+    Where the two are the same the pixels stay: a face onto itself is the face.
+    """
+    own = channel_mean(taken)[..., None]
+    kept = pixels * _ratio(given - own)
+    bare = (pixels + FLOOR) * _ratio(-taken) - FLOOR
     brighter = np.maximum(given, 0)
-    grey = (ratio(glints * brighter) - 1) * channel_mean(bare)[..., None]
-    return np.asarray(bare * ratio(given - glints * brighter) + grey, np.float32)
+    grey = (_ratio(glints * brighter) - 1) * channel_mean(bare)[..., None]
+    new = bare * _ratio(given - glints * brighter) + grey
+    change = np.abs(given - own).mean(axis=2, keepdims=True)
+    size = (np.abs(given).mean(axis=2, keepdims=True) + np.abs(own)) / 2
+    return np.asarray(kept + np.minimum(change / (size + _FAINT), 1) * (new - kept), np.float32)
+
+
+def _ratio(change: FloatArray) -> FloatArray:
+    """By which intensities change."""
+    return np.asarray(np.exp(np.clip(change, -_LARGEST_CHANGE, _LARGEST_CHANGE)), np.float32)
