@@ -11,10 +11,10 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.blur import blurred
-from graphface.nodes.bounding_box import bounding_box
+from graphface.nodes.bounding_box import Box, bounding_box
 from graphface.nodes.color import channel_mean
-from graphface.nodes.face_scale import face_scale
-from graphface.nodes.relief import FLOOR, USUAL, WIDTHS, logarithm, relief
+from graphface.nodes.face_scale import FaceScale, face_scale
+from graphface.nodes.relief import FLOOR, USUAL, WIDTHS, Relief, logarithm, relief
 from graphface.nodes.transfer.chosen import Which, chosen
 from graphface.nodes.types import REGIONS, DetailMap, FloatArray, Image, Landmarks, Mask, Regions
 
@@ -29,7 +29,7 @@ Strength = Annotated[float, Field(ge=0, le=4)]
 _LARGEST_CHANGE = np.float32(1.0)
 """Of the logarithm of intensity, in either direction."""
 
-_FAINT = np.float32(0.01)
+_FAINT = np.float32(0.02)
 """Relief, of the logarithm of intensity, that is not seen."""
 
 _COARSER = 1.2
@@ -40,11 +40,11 @@ _COARSER = 1.2
 def bands(
     detail: DetailMap,
     photo: Image,
-    reference: Image,
     mask: Mask,
     skin: Mask,
     landmarks: Landmarks,
-    reference_landmarks: Landmarks,
+    reference: Image | None = None,
+    reference_landmarks: Landmarks | None = None,
     regions: Regions | None = None,
     *,
     pores: Strength = 1.0,
@@ -62,9 +62,10 @@ def bands(
     darker multiplies the skin's color; what is brighter is half that and half grey light, as skin reflects it.
 
     Args:
-        detail: the photo's, additive. reference: warped to the photo.
+        detail: the photo's, additive.
         mask: how much is exchanged; where it is 0 the map does not change by a bit.
         skin: where both photos show skin (`transfer.skin`); relief is measured there only.
+        reference: warped to the photo; without one its skin is perfectly smooth.
         landmarks, reference_landmarks: their size says what is too fine for the reference to show; that stays.
         regions: the photo's, for `regional`.
         pores, lines, folds: strength of the bands up to 0.01, 0.03 and 0.07 inter-ocular distances.
@@ -73,7 +74,8 @@ def bands(
             reference's dark spots (freckles, moles), in color, to what the photo has.
         glints: share of brighter relief that is grey light.
         harshest: root mean square of a band, as a multiple of what four of five portraits stay below, from which on it
-            is scaled down; None carries a hard light or a sharpened picture as it is.
+            is scaled down, though never below the photo's own; None carries a hard light or a sharpened picture as it
+            is.
         resolution: pixels per inter-ocular distance of the copy on which the relief's base is computed.
     """
     box = bounding_box(mask, margin=round(4 * WIDTHS["folds"] * landmarks.interocular))
@@ -81,11 +83,11 @@ def bands(
         return detail
     copy = face_scale(landmarks, mask[box].shape, resolution)
     pixels, share, on_skin = photo.pixels[box], mask[box], skin[box]
-    other_pixels = reference.pixels[box] if which == "spots" else channel_mean(reference.pixels[box])[..., None]
-    own = relief(logarithm(pixels), on_skin, copy)
-    other = relief(logarithm(other_pixels), on_skin, copy)
-    coarser = landmarks.interocular / max(reference_landmarks.interocular, 1e-3)
-    taken, given = np.zeros_like(pixels), np.zeros_like(other.pores)
+    values = logarithm(pixels)
+    own = relief(np.dstack([values, channel_mean(values)]), on_skin, copy)
+    other = _of_reference(reference, box, which, on_skin, copy)
+    coarser = 1.0 if reference_landmarks is None else landmarks.interocular / max(reference_landmarks.interocular, 1e-3)
+    taken, given = np.zeros_like(own.pores), np.zeros_like(other.pores)
     for band, strength in {"pores": pores, "lines": lines, "folds": folds}.items():
         weight = share * np.float32(strength)
         if regions is not None:
@@ -93,7 +95,7 @@ def bands(
         if not weight.any():
             continue
         mine, theirs = getattr(own, band), getattr(other, band)
-        theirs = theirs * np.float32(_moderation(theirs, share, USUAL[band], harshest))
+        theirs = theirs * np.float32(_moderation(mine, theirs, share, USUAL[band], harshest))
         if band == "pores" and coarser > _COARSER:
             mine = blurred(mine, 0.5 * coarser)
         if band == "folds":
@@ -106,6 +108,15 @@ def bands(
     return replace(detail, offset=offset)
 
 
+def _of_reference(reference: Image | None, box: Box, which: Which, skin: Mask, copy: FaceScale) -> Relief:
+    """Its relief, H x W x 3 for spots, which have a color, and else H x W x 1."""
+    if reference is None:
+        nothing = np.zeros((*skin.shape, 1), np.float32)
+        return Relief(nothing, nothing, nothing)
+    values = logarithm(reference.pixels[box])
+    return relief(values if which == "spots" else channel_mean(values)[..., None], skin, copy)
+
+
 def _regional(regional: Mapping[str, Mapping[str, float]], band: str, regions: Regions) -> FloatArray:
     """The factors of a band, H x W."""
     factor = np.ones_like(regions.nose)
@@ -116,27 +127,27 @@ def _regional(regional: Mapping[str, Mapping[str, float]], band: str, regions: R
 
 def _without_color_of_shadows(folds: FloatArray) -> FloatArray:
     """What is bright and broad is shine, which is grey; what is dark has the color of the skin and leaves it there."""
-    light = folds.mean(axis=2, keepdims=True)
+    light = folds[..., 3:]
     return np.where(light > 0, folds, light)
 
 
-def _moderation(band: FloatArray, mask: Mask, usual: float, harshest: float | None) -> float:
-    """The factor by which a band is scaled down."""
+def _moderation(own: FloatArray, other: FloatArray, mask: Mask, usual: float, harshest: float | None) -> float:
+    """The factor by which a band of the reference is scaled down."""
     inside = mask > 0.5
     if harshest is None or not inside.any():
         return 1.0
-    strength = float(np.sqrt(np.mean(np.square(band[inside]))))
-    return min(1.0, harshest * usual / max(strength, 1e-4))
+    of_own, of_other = (float(np.sqrt(np.mean(np.square(band.mean(axis=2)[inside])))) for band in (own, other))
+    return min(1.0, max(harshest * usual, of_own) / max(of_other, 1e-4))
 
 
 def _exchanged(pixels: FloatArray, taken: FloatArray, given: FloatArray, glints: np.float32) -> FloatArray:
-    """Pixels without one relief (H x W x 3) and with another (H x W x 1 or 3).
+    """Pixels without one relief (H x W x 4, the last the mean) and with another (H x W x 1 or 3).
 
     Where the two are the same the pixels stay: a face onto itself is the face.
     """
-    own = channel_mean(taken)[..., None]
+    own = taken[..., 3:]
     kept = pixels * _ratio(given - own)
-    bare = (pixels + FLOOR) * _ratio(-taken) - FLOOR
+    bare = (pixels + FLOOR) * _ratio(-taken[..., :3]) - FLOOR
     brighter = np.maximum(given, 0)
     grey = (_ratio(glints * brighter) - 1) * channel_mean(bare)[..., None]
     new = bare * _ratio(given - glints * brighter) + grey

@@ -29,10 +29,10 @@ _EVEN = np.float32(0.05)
 def shine(
     detail: DetailMap,
     photo: Image,
-    reference: Image,
     mask: Mask,
     skin: Mask,
     landmarks: Landmarks,
+    reference: Image | None = None,
     *,
     more: Strength = 0.0,
     less: Annotated[float, Field(ge=0, le=1)] = 0.0,
@@ -44,8 +44,9 @@ def shine(
     the photo's own brightness, and taken off in every channel, so that the color of skin is left.
 
     Args:
-        detail: the photo's, additive. reference: warped to the photo.
+        detail: the photo's, additive.
         mask: how much is changed. skin: where both photos show skin.
+        reference: warped to the photo; without one its skin is perfectly matte.
         more, less: strength of what is added and of what is taken off. With 0 and 0 the map is returned as it is.
         resolution: pixels per inter-ocular distance of the copy on which shine is found.
     """
@@ -56,8 +57,10 @@ def shine(
     weight = copy.down(skin[box])
     pixels = copy.down(photo.pixels[box])
     own, own_level = _shine(pixels, weight, copy)
-    other, other_level = _shine(channel_mean(copy.down(reference.pixels[box]))[..., None], weight, copy)
-    other *= channel_mean(own_level)[..., None] / (other_level + FLOOR)
+    other = np.zeros((*copy.size, 1), np.float32)
+    if reference is not None:
+        other, level = _shine(channel_mean(copy.down(reference.pixels[box]))[..., None], weight, copy)
+        other *= channel_mean(own_level)[..., None] / (level + FLOOR)
     own_light = channel_mean(own)[..., None]
     change = np.float32(more) * np.maximum(other - own_light, 0)
     change = change - np.float32(less) * own * np.clip(1 - other / np.maximum(own_light, 1e-4), 0, 1)

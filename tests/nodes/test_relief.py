@@ -37,7 +37,7 @@ class TestRelief:
         assert dark.lines.min() == pytest.approx(bright.lines.min(), rel=0.15)
 
     def test_the_edge_of_a_shadow_is_no_relief(self):
-        """Light on one side and shadow on the other leave next to nothing, a Gaussian base would leave half the step."""
+        """Light on one side and shadow on the other leave next to nothing; a Gaussian would leave lines."""
         step = np.asarray(0.5 / (1 + np.exp(-(X - MIDDLE) / 3)) - 1, np.float32)[..., None]
         found = relief(step, EVERYWHERE, COPY)
         assert max(np.abs(band).max() for band in (found.pores, found.lines, found.folds)) < 0.05

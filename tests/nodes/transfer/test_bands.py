@@ -33,7 +33,7 @@ def transferred(photo, reference, landmarks, mask=EVERYWHERE, reference_landmark
     """The photo with the reference's relief."""
     blank = DetailMap(np.zeros_like(photo.pixels))
     other = reference_landmarks or landmarks
-    made = bands(blank, photo, reference, mask, EVERYWHERE, landmarks, other, regions, **settings)
+    made = bands(blank, photo, mask, EVERYWHERE, landmarks, reference, other, regions, **settings)
     return photo.pixels + made.offset
 
 
@@ -53,7 +53,7 @@ class TestBands:
         """Without a mask the very map comes back."""
         photo, own = wrinkled(), DetailMap(np.zeros((SIDE, SIDE, 3), np.float32))
         nothing = np.zeros_like(EVERYWHERE)
-        assert bands(own, photo, wrinkled(0.3), nothing, EVERYWHERE, landmarks, landmarks) is own
+        assert bands(own, photo, nothing, EVERYWHERE, landmarks, wrinkled(0.3)) is own
 
     @pytest.mark.parametrize("level", [1.0, 0.4])
     def test_wrinkles_arrive(self, level, landmarks):
@@ -68,6 +68,12 @@ class TestBands:
         got = transferred(wrinkled(0.2), wrinkled(), landmarks)
         assert depth_of(got) < 0.05
         assert got[60:140, 60:140].mean() == pytest.approx(wrinkled().pixels.mean(), rel=0.05)
+
+    def test_no_reference(self, landmarks):
+        """Is a reference of smooth skin."""
+        photo = wrinkled(0.2)
+        got, smooth = (transferred(photo, reference, landmarks) for reference in (None, wrinkled()))
+        np.testing.assert_allclose(got, smooth, atol=5e-3)
 
     def test_another_tone_is_no_detail(self, landmarks):
         """A darker reference without relief changes nothing."""
@@ -111,6 +117,4 @@ class TestBands:
     def test_node(self, landmarks):
         """It keeps an operator's promises."""
         photo = wrinkled(0.1)
-        check_node(
-            bands, DetailMap(0 * photo.pixels), photo, wrinkled(0.2), EVERYWHERE, EVERYWHERE, landmarks, landmarks
-        )
+        check_node(bands, DetailMap(0 * photo.pixels), photo, EVERYWHERE, EVERYWHERE, landmarks, wrinkled(0.2))

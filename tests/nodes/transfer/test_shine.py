@@ -28,14 +28,14 @@ def shiny(light=0.0):
 
 def shone(photo, reference, landmarks, **settings):
     own = DetailMap(np.zeros_like(photo.pixels))
-    return shine(own, photo, reference, EVERYWHERE, EVERYWHERE, landmarks, **settings).offset
+    return shine(own, photo, EVERYWHERE, EVERYWHERE, landmarks, reference, **settings).offset
 
 
 class TestShine:
     def test_off(self, landmarks):
         """Of strength 0 and 0 it returns the very map."""
         own = DetailMap(np.zeros((SIDE, SIDE, 3), np.float32))
-        assert shine(own, shiny(), shiny(0.3), EVERYWHERE, EVERYWHERE, landmarks) is own
+        assert shine(own, shiny(), EVERYWHERE, EVERYWHERE, landmarks, shiny(0.3)) is own
 
     def test_more(self, landmarks):
         """Shine arrives as grey light; what the photo has already does not come twice."""
@@ -45,10 +45,11 @@ class TestShine:
         assert np.abs(change[20, 20]).max() < 1e-4
         assert shone(shiny(0.3), shiny(0.3), landmarks, more=1.0).max() < 0.03
 
-    def test_less(self, landmarks):
-        """A matte reference leaves the color of the skin around."""
+    @pytest.mark.parametrize("reference", [shiny(), None])
+    def test_less(self, reference, landmarks):
+        """A matte reference, or none, leaves the color of the skin around."""
         photo = shiny(0.3)
-        got = photo.pixels + shone(photo, shiny(), landmarks, less=1.0)
+        got = photo.pixels + shone(photo, reference, landmarks, less=1.0)
         around = np.abs(got[100, 100] / SKIN_COLOR - 1)
         assert around.max() < 0.25
         assert around.max() < 0.5 * np.abs(photo.pixels[100, 100] / SKIN_COLOR - 1).max()
@@ -56,4 +57,4 @@ class TestShine:
     def test_node(self, landmarks):
         """It keeps an operator's promises."""
         own = DetailMap(np.zeros((SIDE, SIDE, 3), np.float32))
-        check_node(shine, own, shiny(), shiny(0.3), EVERYWHERE, EVERYWHERE, landmarks, more=1.0)
+        check_node(shine, own, shiny(), EVERYWHERE, EVERYWHERE, landmarks, shiny(0.3), more=1.0)
