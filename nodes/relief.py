@@ -90,10 +90,10 @@ def filled(values: FloatArray, weight: Mask, unit: float) -> FloatArray:
     mean = known.sum(axis=(0, 1)) / max(float(weight.sum()), 1e-3)
     result, left = known, 1 - weight
     for width in _SPREADS:
-        sums = blurred(np.dstack([known, weight]), max(width * unit, 0.5))
-        near = sums[..., -1]
+        sums, near = (_deep(blurred(v, max(width * unit, 0.5))) for v in (known, weight))
+        near = near[..., 0]
         share = left * np.clip(4 * near, 0, 1)
-        result = result + (share / np.maximum(near, 1e-4))[..., None] * sums[..., :-1]
+        result = result + (share / np.maximum(near, 1e-4))[..., None] * sums
         left = left - share
     return np.asarray(result + left[..., None] * mean, np.float32)
 
@@ -102,8 +102,8 @@ def _average(values: FloatArray, weight: Mask, sigma: float) -> FloatArray:
     """A Gaussian average over the weighted pixels of values that are 0 where the weight is."""
     if sigma < _NARROWEST:
         return values
-    sums = blurred(np.dstack([values, weight]), sigma)
-    return np.asarray(sums[..., :-1] / np.maximum(sums[..., -1:], np.float32(1e-2)), np.float32)
+    sums, near = (_deep(blurred(v, sigma)) for v in (values, weight))
+    return np.asarray(sums / np.maximum(near, np.float32(1e-2)), np.float32)
 
 
 def _deep(values: FloatArray) -> FloatArray:

@@ -25,7 +25,8 @@ def chosen(which: Which, own: FloatArray, other: FloatArray, width: float) -> tu
     """What is taken from the photo's band and what is given of the reference's.
 
     Args:
-        own: H x W x 3 or 4. other: H x W x 1 or 3. width: sigma of the neighborhood in which strength is compared, in pixels.
+        own: H x W x 3 or 4. other: H x W x 1 or 3.
+        width: sigma of the neighborhood in which strength is compared, in pixels.
     """
     if which == "all":
         return own, other
