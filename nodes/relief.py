@@ -80,7 +80,7 @@ def base(values: FloatArray, weight: Mask, unit: float) -> FloatArray:
     scale = np.float32(_LEVELS / max(float(high - low), 1e-3))
     steps = np.asarray(np.clip(np.rint((values - np.float32(low)) * scale), 0, _LEVELS), np.uint8)
     side = 2 * max(1, round(WIDTHS["folds"] * unit)) + 1
-    median = _deep(cv2.medianBlur(steps, side)).astype(np.float32) / scale + np.float32(low)
+    median = _deep(np.asarray(cv2.medianBlur(steps, side), np.float32)) / scale + np.float32(low)
     return _deep(gaussian(median, _BASE_SMOOTHING * unit))
 
 

@@ -47,4 +47,4 @@ class TestTransfer:
         made = load("transfer").run(asked, photo=faces / "pd_cedric-richmond.jpg", reference=faces / "pd_roy-blunt.jpg")
         inside = made["mask"] > 0.9
         before, after = (made[name].pixels[inside].mean(axis=0) for name in ("pair.working", "image"))
-        np.testing.assert_allclose(after, before, rtol=0.04)
+        np.testing.assert_allclose(after, before, rtol=0.06)
