@@ -91,7 +91,8 @@ def bands(
     other = _of_reference(reference, box, which, on_skin, copy)
     coarser = 1.0 if reference_landmarks is None else landmarks.interocular / max(reference_landmarks.interocular, 1e-3)
     taken, given = np.zeros_like(own.pores), np.zeros_like(other.pores)
-    for band, strength in {"pores": pores, "lines": lines, "folds": folds}.items():
+    strengths: dict[Band, float] = {"pores": pores, "lines": lines, "folds": folds}
+    for band, strength in strengths.items():
         weight = share * np.float32(strength)
         if regions is not None:
             weight = weight * _regional(regional, band, regions)[box]
@@ -120,11 +121,11 @@ def _of_reference(reference: Image | None, box: Box, which: Which, skin: Mask, c
     return relief(values if which == "spots" else channel_mean(values)[..., None], skin, copy)
 
 
-def _regional(regional: Mapping[Region, Mapping[Band, Strength]], band: str, regions: Regions) -> FloatArray:
+def _regional(regional: Mapping[Region, Mapping[Band, Strength]], band: Band, regions: Regions) -> FloatArray:
     """The factors of a band, H x W."""
     factor = np.ones_like(regions.nose)
     for region, factors in regional.items():
-        factor += getattr(regions, region) * np.float32(dict[str, float](factors).get(band, 1.0) - 1)
+        factor += getattr(regions, region) * np.float32(factors.get(band, 1.0) - 1)
     return factor
 
 
