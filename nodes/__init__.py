@@ -28,7 +28,7 @@ _MODULES = {
     "lamps wall composite relit fitted_head full_size",
     "light": "scene panorama",
     "scatter": "none gaussian screen_space",
-    "transfer": "mask paint detail recolored",
+    "transfer": "skin mask bands shine paint detail recolored",
     "warp": "mesh resample",
     "flow": "none dis farneback deepflow tvl1",
     "makeup": "features pigment albedo shading rendered exposed keep detail occluders skin loose_hair beard coverage "

@@ -43,12 +43,20 @@ FOREHEAD = (54, 103, 67, 109, 10, 338, 297, 332, 284, 298, 333, 299, 337, 9, 108
 """Contours by FaceMesh's vertex indices (MediaPipe's published topology); left ones are their mirror images."""
 
 
+FOREHEAD_WITH_FROWN = (54, 103, 67, 109, 10, 338, 297, 332, 284, 298, 333, 299, 336, 285, 8, 55, 107, 69, 104, 68)
+"""The forehead down to the bridge of the nose: frown lines are not cut in two."""
+
+
 _FINEST = 100.0
 """Pixels per inter-ocular distance that regions are drawn with at most; their soft edges are several of them wide."""
 
 
 _GROWTH = {"brow": 0.03, "eye": 0.07, "nose": 0.02, "mouth": 0.06, "cheek": 0.08, "forehead": 0.03}
 """How far a region reaches beyond its contour, in inter-ocular distances: an eye includes its lids."""
+
+
+_BROW_FALL = np.float32(4)
+"""How much faster than the others a brow gets shallow outside: the skin beside it is the eye's or the forehead's."""
 
 
 _FRACTION_BITS = 4
@@ -81,17 +89,25 @@ def mean_face_coordinates(size: tuple[int, int], landmarks: Landmarks) -> tuple[
 
 
 @cache
-def atlas(softness: float) -> dict[str, FloatArray]:
+def atlas(softness: float, partition: bool = True) -> dict[str, FloatArray]:
     """The regions on the mean face seen from the front, SIDE x SIDE each, read-only; where two overlap they share.
 
     Args:
         softness: width of the ramp at the edge, in inter-ocular distances.
+        partition: every point belongs to the region that it is deepest in, or nearest to, so that they sum to 1. False
+            draws each within its contour, and what lies between the contours belongs to none.
     """
-    contours = _contours()
-    drawn = {}
-    for name in REGIONS:
-        depth = _signed_distance(_filled(contours[name])) / SIDE * 2 * REACH + _GROWTH[name.rpartition("_")[2]]
-        drawn[name] = smoothstep(np.asarray(depth / softness + 0.5, np.float32))
+    contours = _contours(FOREHEAD_WITH_FROWN if partition else FOREHEAD)
+    depths = {
+        name: _signed_distance(_filled(contours[name])) / SIDE * 2 * REACH + _GROWTH[name.rpartition("_")[2]]
+        for name in REGIONS
+    }
+    if partition:
+        for name in ("left_brow", "right_brow"):
+            depths[name] = np.where(depths[name] < 0, _BROW_FALL * depths[name], depths[name])
+    # A region ends where it is `softness` less deep than the deepest, which itself has weight 1 before they share.
+    start = np.maximum.reduce(list(depths.values())) - softness if partition else np.float32(-softness / 2)
+    drawn = {name: smoothstep(np.asarray((depth - start) / softness, np.float32)) for name, depth in depths.items()}
     total = np.maximum(sum(drawn.values()), 1)
     shared = {name: np.asarray(mask / total, np.float32) for name, mask in drawn.items()}
     for mask in shared.values():
@@ -99,11 +115,11 @@ def atlas(softness: float) -> dict[str, FloatArray]:
     return shared
 
 
-def _contours() -> dict[str, NDArray[np.float32]]:
+def _contours(forehead: tuple[int, ...]) -> dict[str, NDArray[np.float32]]:
     """Each region's polygon on the mean face, (n, 2)."""
     topology = facemesh_topology()
     right = {"right_brow": RIGHT_BROW, "right_eye": RIGHT_EYE, "right_cheek": RIGHT_CHEEK}
-    indices = {"nose": NOSE, "mouth": MOUTH, "forehead": FOREHEAD, **right}
+    indices = {"nose": NOSE, "mouth": MOUTH, "forehead": forehead, **right}
     indices |= {name.replace("right", "left"): tuple(topology.mirror[list(points)]) for name, points in right.items()}
     return {name: topology.mean[list(points), :2] for name, points in indices.items()}
 

@@ -1,5 +1,6 @@
 """Detail transfer between two faces in nine regions; the input's light and albedo stay (paper, "Face Detail Transfer").
 
-`mask` says which pixels take the reference's detail, and `paint` which of them show makeup and do not; `recolored`
-adapts the reference's detail map to the input's albedo; `detail` exchanges a band of the input's map.
+`skin` says where both photos show skin, and `mask` which pixels take how much. `bands` exchanges the relief of skin in
+three bands, and `shine` adds shine or takes it off. The paper's way: `paint` says which pixels show makeup and stay,
+`recolored` adapts the reference's detail map to the input's albedo, and `detail` exchanges a band of the input's map.
 """

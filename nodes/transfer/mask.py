@@ -22,7 +22,7 @@ Strength = Annotated[float, Field(ge=0, le=2)]
 @node("transfer.mask")
 def mask(
     regions: Regions,
-    correspondence: Correspondence,
+    correspondence: Correspondence | None = None,
     features: Features | None = None,
     skin: Mask | None = None,
     given: Mask | None = None,
@@ -51,7 +51,8 @@ def mask(
     total = np.zeros_like(regions.nose)
     for name in dict.fromkeys(take):
         total += getattr(regions, name) * np.float32(strengths.get(name, strength))
-    total *= correspondence.known * correspondence.inside
+    if correspondence is not None:
+        total *= correspondence.known * correspondence.inside
     if features is not None:
         total *= 1 - features.openings * np.float32(1 - min(openings, 1))
     if paint is not None:

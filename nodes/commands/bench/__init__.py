@@ -13,7 +13,7 @@ from typer.core import TyperGroup
 
 COMMANDS = (
     *("lights", "scenes", "geometry", "poses", "intrinsic", "light"),
-    *("masks", "matting", "makeup", "transfer", "looks"),
+    *("masks", "matting", "makeup", "transfer", "looks", "details"),
 )
 """Each a module here, with a function of the same name."""
 

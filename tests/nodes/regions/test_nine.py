@@ -10,6 +10,7 @@ from portraits import landmarks_at
 
 from graphface import UsageError
 from graphface.nodes.landmark_schemes import ibug68
+from graphface.nodes.regions.atlas import mean_face_coordinates
 from graphface.nodes.regions.nine import nine
 from graphface.nodes.types import REGIONS, Image
 from graphface.testing import check_node
@@ -23,10 +24,28 @@ def landmarks():
 
 
 class TestNine:
-    def test_sum_to_at_most_one(self, landmarks):
-        """Regions share what they overlap."""
+    def test_a_partition(self, landmarks):
+        """Every point of the face belongs to regions that sum to 1: the forehead's middle, temples and chin as well."""
         regions = nine(BLANK, landmarks)
-        assert sum(getattr(regions, name) for name in REGIONS).max() <= 1 + 1e-5
+        total = sum(getattr(regions, name) for name in REGIONS)
+        face = mean_face_coordinates((200, 200), landmarks)[2]
+        np.testing.assert_allclose(total, face, atol=1e-4)
+        for point in (8, 9, 151, 168, 71, 200):
+            x, y = np.round(landmarks.points[point, :2]).astype(int)
+            assert total[y, x] > 0.999
+
+    def test_frown_lines_are_in_one_region(self, landmarks):
+        """The forehead reaches down between the brows."""
+        x, y = np.round(landmarks.points[8, :2]).astype(int)
+        assert nine(BLANK, landmarks).forehead[y, x] > 0.9
+
+    def test_contours_alone(self, landmarks):
+        """Without a partition what lies between the contours belongs to none, and regions share what they overlap."""
+        regions = nine(BLANK, landmarks, partition=False)
+        total = sum(getattr(regions, name) for name in REGIONS)
+        assert total.max() <= 1 + 1e-5
+        x, y = np.round(landmarks.points[8, :2]).astype(int)
+        assert total[y, x] < 0.05
 
     @pytest.mark.parametrize(
         ("name", "point"),
@@ -61,8 +80,8 @@ class TestNine:
         factor = 6
         large = replace(landmarks, points=(landmarks.points + np.float32([0.5, 0.5, 0])) * factor - np.float32(0.5))
         photo = Image(np.zeros((200 * factor, 200 * factor, 3), np.float32))
-        mouth = nine(photo, large).mouth.reshape(200, factor, 200, factor).mean(axis=(1, 3))
-        assert np.abs(mouth - nine(BLANK, landmarks).mouth).max() < 0.1
+        nose = nine(photo, large).nose.reshape(200, factor, 200, factor).mean(axis=(1, 3))
+        assert np.abs(nose - nine(BLANK, landmarks).nose).max() < 0.1
 
     def test_softness(self, landmarks):
         """More softness, more pixels in between."""
