@@ -8,7 +8,7 @@ import numpy as np
 
 from graphface import node
 from graphface.nodes.resample import resampled
-from graphface.nodes.types import Albedo, Correspondence, DetailMap, Image, Mask, Shading
+from graphface.nodes.types import Albedo, Correspondence, DetailMap, Image, Mask, Paint, Shading
 
 
 @node("warp.photo")
@@ -40,3 +40,12 @@ def detail(reference: DetailMap, correspondence: Correspondence) -> DetailMap:
     """The reference's detail map, every part of it, at the input's pixels; see `resampled`."""
     parts = {name: v for name, v in vars(reference).items() if isinstance(v, np.ndarray)}
     return replace(reference, **{name: resampled(v, correspondence) for name, v in parts.items()})
+
+
+@node("warp.paint")
+def paint(reference: Paint, correspondence: Correspondence) -> Paint:
+    """The reference's makeup at the input's pixels; see `resampled`."""
+    layer = resampled(np.dstack([reference.departure, reference.opacity]), correspondence)
+    known = np.minimum(correspondence.inside, 1)[..., None]
+    departure = np.asarray(layer[..., :3] * known, np.float32)
+    return Paint(np.asarray(np.clip(layer[..., 3] * known[..., 0], 0, 1), np.float32), departure, reference.skin)
