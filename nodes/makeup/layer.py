@@ -38,7 +38,8 @@ _LEAST_EXPOSURE = 0.2
 """Of the ratio of two skins' lightness."""
 
 
-_LARGEST_DEPARTURE = (-3.0, 1.5)
+_LEAST_DEPARTURE, _LARGEST_DEPARTURE = np.float32(-3), np.float32(1.5)
+"""Natural logarithms."""
 
 
 _TURNED, _FACING = 0.15, 0.35
@@ -79,10 +80,10 @@ def layer(
     copy = face_scale(landmarks, core[box].shape, 100)
     skin_lightness = _lightness(bare, surface)
     own = _Own(copy, photo.pixels[box], bare.color[box], skin_lightness)
-    departure = np.clip(paint.departure[box], *map(np.float32, _LARGEST_DEPARTURE))
+    departure = np.clip(paint.departure[box], _LEAST_DEPARTURE, _LARGEST_DEPARTURE)
     worn = copy.up(own.worn(copy.down(departure)))
     eyes, around_brows = (copy.down(getattr(features, name)[box]) for name in ("eyes", "brows"))
-    hair = copy.up(brow_hair(own.pixels, own.departure, around_brows, eyes, copy.interocular) * np.float32(brows))
+    hair = np.float32(brows) * copy.up(brow_hair(own.pixels, own.departure, around_brows, eyes, copy.interocular))
     own_broad, broad = (
         copy.up(gaussian(v, _FINE * copy.interocular)) for v in (own.log, copy.down(channel_mean(departure)))
     )
@@ -90,7 +91,7 @@ def layer(
     weight = np.asarray(core[box] * facing * (1 - np.minimum(features.openings[box], 1)), np.float32)
     darker = np.clip(skin_lightness / max(float(paint.skin.mean()), 1e-3), _LEAST_EXPOSURE, _LARGEST_LIGHT)
     pigment = paint.skin * np.float32(darker**exposure)
-    light, skin_log = copy.up(own.light), copy.up(own.skin_log)
+    light, skin_log = (copy.up(np.asarray(v, np.float32)) for v in (own.light, own.skin_log))
     keep = np.float32(relief) + np.float32(relief_lips - relief) * features.lips[box]
     keep *= 1 - hair
     pixels, opacity = photo.pixels[box], paint.opacity[box]

@@ -8,9 +8,10 @@ of the skin below; a large one is opaque and hides it.
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node
@@ -48,6 +49,10 @@ _SKIN_VARIES = (0.035, 0.08)
 
 _DARK_AT_EYES, _DARK_ELSEWHERE = 0.22, 0.92
 """Natural logarithms of darkness that are still shadow."""
+
+
+_HIDES, _LEAST_HIDDEN = 0.25, 0.5
+"""By how much darkness, in natural logarithms, lessens the opacity of a color, and down to which share."""
 
 
 _FAINT = 0.1
@@ -102,15 +107,16 @@ def paint(
         return Paint(opacity, departure, skin)
     copy = face_scale(landmarks, visible[box].shape, resolution)
     found = _Layer(copy, box, photo, bare, features, landmarks)
-    amount = found.amount()
-    share, opaqueness = found.shares(amount, opaque, opaque_lips)
+    amount, hides = found.amounts()
+    share, opaqueness = found.shares(amount, hides, opaque, opaque_lips)
     there = copy.down(visible[box] * np.clip(2 * surface.coverage[box] - 1, 0, 1))
     facing = np.clip((copy.down(surface.normals[box][..., 2]) - _TURNED) / (_FACING - _TURNED), 0, 1)
     there = np.asarray(there * facing, np.float32)
     hair = np.asarray(cv_dilated(found.hair(), 0.018 * copy.interocular) * (1 - brows), np.float32)
     layer = np.dstack([found.departure * share[..., None], opaqueness])
     # What crosses a brow is seen above it; eye shadow ends below.
-    filled = _filled(layer, there * (hair < 0.05) * found.above(hair), copy.interocular)
+    beside = there * (hair < 0.05) * (found.light > -_DARK_ELSEWHERE)
+    filled = _filled(layer, beside * found.above(hair), copy.interocular)
     closed = 1 - np.clip(1.3 * features.eyes[box], 0, 1)
     on = np.asarray(copy.up(there) * closed, np.float32)
     hair, share, opaqueness = copy.up(hair), copy.up(share), copy.up(opaqueness)
@@ -166,35 +172,42 @@ class _Layer:
         )
         down = np.nan_to_num(landmarks.points[_CHIN, :2] - landmarks.points[_TOP, :2])
         self.down = down / max(float(np.linalg.norm(down)), 1e-6)
-        self.nostrils = self._nostrils(landmarks, box, copy)
-        around = _dilated(self.eyes > 0.3, 0.13 * self.unit)
+        self.may_wear = (1 - self._nostrils(landmarks, box, copy)) * (1 - np.clip(1.3 * self.eyes, 0, 1))
+        around = _dilated(self.eyes, 0.13 * self.unit)
         self.at_eyes = np.clip(gaussian(around, 0.04 * self.unit) + self.lids, 0, 1)
-        at_lips = gaussian(_dilated(self.lips > 0.5, 0.02 * self.unit), 0.01 * self.unit)
+        at_lips = gaussian(_dilated(self.lips, 0.02 * self.unit), 0.01 * self.unit)
         self.at_lips = np.clip(1.5 * np.maximum(self.lips, at_lips), 0, 1)
 
-    def amount(self) -> FloatArray:
-        """How far each pixel departs from bare skin by paint, natural logarithms."""
-        import cv2
+    def amounts(self) -> tuple[FloatArray, FloatArray]:
+        """How far each pixel departs from bare skin by paint, and how far by what hides skin, natural logarithms.
 
+        What is dark needs not hide skin: it darkens any. So the soft edge of liner shows nothing of the wearer's skin.
+        """
         tolerance = float(np.clip(2 * self.bare.deviation, *_SKIN_VARIES))
         shadow = _DARK_AT_EYES + (_DARK_ELSEWHERE - _DARK_AT_EYES) * (1 - self.at_eyes)
-        amount = np.hypot(np.maximum(self.chroma - tolerance, 0), np.maximum(-self.light - shadow, 0))
-        amount *= 1 - self.nostrils
+        color = np.maximum(self.chroma - tolerance, 0) * self.may_wear
+        amount = np.hypot(color, np.maximum(-self.light - shadow, 0) * self.may_wear)
+        hides = color * np.clip(1 + _HIDES * np.minimum(self.light, 0), _LEAST_HIDDEN, 1)
         on_lips = np.hypot(self.chroma, self.light)
-        amount += self.at_lips * (np.maximum(amount, on_lips) - amount)
-        amount = np.asarray(amount, np.float32)
-        closed = cv2.morphologyEx(amount, cv2.MORPH_CLOSE, ellipse(_GAP * self.unit))
-        return np.asarray(np.maximum(amount, closed * (1 - self.nostrils)), np.float32)
+        return self._closed(amount, on_lips), self._closed(hides, on_lips)
 
-    def shares(self, amount: FloatArray, opaque: float, opaque_lips: float) -> tuple[FloatArray, FloatArray]:
+    def _closed(self, amount: FloatArray, on_lips: FloatArray) -> FloatArray:
+        import cv2
+
+        amount = np.asarray(amount + self.at_lips * (np.maximum(amount, on_lips) - amount), np.float32)
+        closed = cv2.morphologyEx(amount, cv2.MORPH_CLOSE, ellipse(_GAP * self.unit))
+        return np.asarray(np.maximum(amount, closed * self.may_wear), np.float32)
+
+    def shares(
+        self, amount: FloatArray, hides: FloatArray, opaque: float, opaque_lips: float
+    ) -> tuple[FloatArray, FloatArray]:
         """Share of the departure that is paint, and its opacity."""
         whole = np.hypot(self.chroma, 0.5 * self.light)
         share = np.clip(amount / np.maximum(whole, 1e-3), 0, 1).astype(np.float32)
         share *= smoothstep(np.asarray(amount / _FAINT + self.at_lips, np.float32))
-        near = np.clip(1.6 * gaussian(share, _GAP * self.unit) - 0.1, 0, 1) * (1 - self.nostrils)
+        near = np.clip(1.6 * gaussian(share, _GAP * self.unit) - 0.1, 0, 1) * self.may_wear
         share = np.maximum(share, near)
-        full = np.where(self.at_lips > 0.5, opaque_lips, opaque)
-        opacity = smoothstep(np.asarray(amount / full, np.float32))
+        opacity = smoothstep(np.asarray(hides / np.where(self.at_lips > 0.5, opaque_lips, opaque), np.float32))
         least = np.float32(self.bare.greasepaint)
         return np.asarray(np.maximum(share, least), np.float32), np.asarray(np.maximum(opacity, least), np.float32)
 
@@ -224,13 +237,14 @@ class _Layer:
         for outline in _NOSTRILS:
             points = (np.nan_to_num(landmarks.points[list(outline), :2]) - origin) * copy.scale
             cv2.fillConvexPoly(drawn, cv2.convexHull(np.round(points).astype(np.int32)), 1)
-        return np.clip(gaussian(_dilated(drawn > 0, 0.03 * self.unit), 0.02 * self.unit), 0, 1)
+        return np.clip(gaussian(_dilated(drawn, 0.03 * self.unit), 0.02 * self.unit), 0, 1)
 
 
-def _dilated(mask: FloatArray, radius: float) -> FloatArray:
+def _dilated(mask: NDArray[Any], radius: float) -> FloatArray:
+    """The mask's inside, 1 above 0.3, grown by a radius in pixels."""
     import cv2
 
-    return np.asarray(cv2.dilate(mask.astype(np.float32), ellipse(radius)), np.float32)
+    return np.asarray(cv2.dilate((mask > 0.3).astype(np.float32), ellipse(radius)), np.float32)
 
 
 def _filled(values: FloatArray, weight: FloatArray, unit: float) -> FloatArray:
