@@ -32,7 +32,7 @@ _MODULES = {
     "warp": "mesh resample",
     "flow": "none dis farneback deepflow tvl1",
     "makeup": "features pigment albedo shading rendered exposed keep detail occluders skin loose_hair beard coverage "
-    "core boundary closed_mouth bare_skin paint layer",
+    "core boundary closed_mouth bare_skin paint foundation layer",
     "blend": "recombine linear multiband poisson",
 }
 """The modules of each family that declare its operators; the family is the folder."""

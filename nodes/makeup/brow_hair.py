@@ -16,7 +16,12 @@ _LID = 0.075
 
 
 _DARK, _RAMP = 0.12, 0.15
-"""Natural logarithms by which hair is darker than skin at the least, and over which it becomes certain."""
+"""Natural logarithms by which hair is darker than skin at the least, and over which it becomes certain; with dark brows
+both are shares of their own darkness, so that a shadow beneath is no brow."""
+
+
+_LEAST_PIXELS = 9
+"""Of certain hair that tell the color and the darkness of the brows."""
 
 
 _COLOR = 0.12
@@ -39,11 +44,13 @@ def brow_hair(
     zone = gaussian(zone, 0.015 * unit)
     light = departure.mean(axis=2)
     lab = np.asarray(cv2.cvtColor(np.clip(pixels, 0, 1).astype(np.float32), cv2.COLOR_RGB2Lab), np.float32)
-    # Hair is neither blue nor strongly colored: a painted brow is paint.
-    hair = zone * np.clip((-light - _DARK) / _RAMP, 0, 1) * np.clip((lab[..., 2] + 9) / 5, 0, 1)
-    hair *= np.clip((38 - np.hypot(lab[..., 1], lab[..., 2])) / 8, 0, 1)
     certain = (brows > 0.6) & (light < -0.3)
-    if certain.sum() >= 9:
+    darkness = max(float(np.median(-light[certain])), 0.0) if certain.sum() >= _LEAST_PIXELS else 0.0
+    least, ramp = max(_DARK, 0.4 * darkness), max(_RAMP, 0.3 * darkness)
+    hair = zone * np.clip((-light - least) / ramp, 0, 1)
+    # Hair is neither blue nor strongly colored: a painted brow is paint.
+    hair *= np.clip((lab[..., 2] + 9) / 5, 0, 1) * np.clip((38 - np.hypot(lab[..., 1], lab[..., 2])) / 8, 0, 1)
+    if darkness > 0:
         chroma = departure - light[..., None]
         apart = np.linalg.norm(chroma - np.median(chroma[certain], axis=0), axis=2)
         hair *= np.clip(2.5 - apart / _COLOR, 0, 1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -13,6 +14,7 @@ from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.face_scale import FaceScale, face_scale
 from graphface.nodes.makeup.brow_hair import brow_hair
+from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import BareSkin, Features, FloatArray, Image, Landmarks, Mask, Paint, Surface
 
@@ -42,6 +44,11 @@ _LEAST_DEPARTURE, _LARGEST_DEPARTURE = np.float32(-3), np.float32(1.5)
 """Natural logarithms."""
 
 
+_SPREAD_RESOLUTION, _EDGE = 48, 0.1
+"""Pixels per inter-ocular distance of the copy on which greasepaint is continued, and how far before the mesh's edge it
+fades, in inter-ocular distances."""
+
+
 _TURNED, _FACING = 0.15, 0.35
 """z of the normal at which the face turns out of sight, and from which on it is painted in full."""
 
@@ -55,6 +62,7 @@ def layer(
     surface: Surface,
     features: Features,
     landmarks: Landmarks,
+    skin: Mask | None = None,
     *,
     relief: Share = 0.35,
     relief_lips: Share = 0.65,
@@ -67,13 +75,16 @@ def layer(
     to the last bit. What the photo wears already in the direction of d is not put on a second time.
 
     Args:
-        bare: the photo's own skin. paint: the layer, warped to the photo. core: where it may go.
+        bare: the photo's own skin. paint: the layer, warped to the photo. core: where it is known and may go.
+        skin: where greasepaint goes on beyond that, as far as the mesh reaches.
         relief, relief_lips: share of the fine lightness that is the photo's own and not the layer's.
         brows: share of the photo's own brows that is seen through opaque paint.
         exposure: share of the ratio of the two skins' lightness that opaque paint is darkened by. At 0 paint has the
             same color on any skin, which is true under the same exposure; portraits of dark skin are exposed longer,
             and those of pale skin are often overexposed.
     """
+    if skin is not None and paint.greasepaint > 0:
+        paint, core = _continued(paint, core, np.minimum(skin, surface.coverage), landmarks)
     box = bounding_box((core > 0) & ((paint.opacity > 0) | (paint.departure != 0).any(axis=2)))
     if box is None:
         return photo
@@ -113,6 +124,25 @@ def layer(
 
     by_strips(strip, pixels.shape)
     return photo.with_pixels(result)
+
+
+def _continued(paint: Paint, core: Mask, face: Mask, landmarks: Landmarks) -> tuple[Paint, Mask]:
+    """The layer continued over the rest of the face from where it is known, and where it may go now."""
+    import cv2
+
+    copy = face_scale(landmarks, core.shape, _SPREAD_RESOLUTION)
+    known, unit = copy.down(core), copy.interocular
+    layer = np.dstack([copy.down(paint.departure), copy.down(paint.opacity)]) * known[..., None]
+    layer = np.dstack([layer, known])
+    total = gaussian(layer, 0.05 * unit) + np.float32(0.01) * gaussian(layer, 0.3 * unit)
+    spread = copy.up(np.asarray(total[..., :4] / np.maximum(total[..., 4:], np.float32(1e-6)), np.float32))
+    depth = cv2.distanceTransform((copy.down(face) > 0.5).astype(np.uint8), cv2.DIST_L2, 5)
+    inside = copy.up(smoothstep(np.asarray(depth / max(_EDGE * unit, 1), np.float32))) * np.float32(paint.greasepaint)
+    # Only what is connected by knowledge: far from any known pixel nothing is continued.
+    inside *= np.clip(copy.up(np.asarray(total[..., 4], np.float32)) * 400, 0, 1)
+    departure = spread[..., :3] + in_three_channels(core) * (paint.departure - spread[..., :3])
+    opacity = spread[..., 3] + core * (paint.opacity - spread[..., 3])
+    return replace(paint, departure=departure, opacity=np.clip(opacity, 0, 1)), np.maximum(core, inside)
 
 
 class _Own:

@@ -138,7 +138,7 @@ def paint(
         into[rows] = values * in_three_channels(on[rows])
 
     by_strips(strip, pixels.shape)
-    return Paint(opacity, departure, skin)
+    return Paint(opacity, departure, skin, bare.greasepaint)
 
 
 def cv_dilated(mask: FloatArray, radius: float) -> FloatArray:

@@ -34,8 +34,10 @@ class Paint:
         opacity: float32 H x W, 0 to 1.
         departure: float32 H x W x 3, logarithm of painted over bare skin; 0 where nothing is worn.
         skin: float32 (3,), color of the wearer's bare skin in the middle of the photo's light, in the photo's encoding.
+        greasepaint: 0 to 1; 1 where the layer covers a face that shows hardly any skin, and is meant for all of it.
     """
 
     opacity: Mask
     departure: Detail
     skin: FloatArray
+    greasepaint: float = 0.0

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphface import node
+from graphface.nodes.color import in_three_channels
 from graphface.nodes.resample import resampled
 from graphface.nodes.types import Albedo, Correspondence, DetailMap, Image, Mask, Paint, Shading
 
@@ -46,6 +47,7 @@ def detail(reference: DetailMap, correspondence: Correspondence) -> DetailMap:
 def paint(reference: Paint, correspondence: Correspondence) -> Paint:
     """The reference's makeup at the input's pixels; see `resampled`."""
     layer = resampled(np.dstack([reference.departure, reference.opacity]), correspondence)
-    known = np.minimum(correspondence.inside, 1)[..., None]
-    departure = np.asarray(layer[..., :3] * known, np.float32)
-    return Paint(np.asarray(np.clip(layer[..., 3] * known[..., 0], 0, 1), np.float32), departure, reference.skin)
+    known = np.minimum(correspondence.inside, 1)
+    opacity = np.asarray(np.clip(layer[..., 3], 0, 1) * known, np.float32)
+    departure = np.ascontiguousarray(layer[..., :3]) * in_three_channels(known)
+    return replace(reference, opacity=opacity, departure=departure)

@@ -59,6 +59,21 @@ class TestLayer:
         cheek = face.disc(0.08)
         assert np.abs(result - painted.pixels)[cheek].mean() < 0.01
 
+    def test_greasepaint_goes_on(self, face, own):
+        """What covers the wearer's whole face covers this one, also where the reference did not show it."""
+        half = face.everywhere.copy()
+        half[:, : half.shape[1] // 2] = 0
+        bare = BareSkin(DARK * face.everywhere[..., None], 0.02, 0.0, 1.0)
+        cheek = face.disc(0.1)
+        changed = {}
+        for greasepaint in (0.0, 1.0):
+            paint = Paint(face.everywhere, np.zeros_like(own.pixels), PALE, greasepaint)
+            parts = (face.surface, face.features, face.landmarks, face.everywhere)
+            changed[greasepaint] = np.abs(layer(own, bare, paint, half, *parts).pixels - own.pixels)[cheek].mean()
+        assert half[cheek].max() == 0
+        assert changed[0.0] == 0
+        assert changed[1.0] > 0.02
+
     def test_the_openings_stay(self, face, own):
         """Eyes and teeth are never painted."""
         result = worn(face, own, face.everywhere, (-1, -1, 0))
