@@ -25,6 +25,11 @@ _CLOSED, _OPEN = 0.4, 0.6
 between teeth have the color of lips."""
 
 
+_GAP, _WIDE = (13, 14), (0.1, 0.13)
+"""FaceMesh points in the middle of the lips' inner edges; their distance, in inter-ocular distances, up to which lips
+may touch, and from which on the mouth is open whatever it looks like."""
+
+
 @node("makeup.closed_mouth")
 def closed_mouth(
     features: Features,
@@ -57,8 +62,12 @@ def closed_mouth(
     distance = np.sqrt(np.maximum(np.einsum("hwi,ij,hwj->hw", off, np.linalg.inv(covariance), off), 0))
     unlike = np.asarray(np.clip((distance / apart - 1) / 0.75, 0, 1), np.float32)
     share = float((unlike * mouth).sum() / max(float(mouth.sum()), 1e-6))
-    closed = np.float32(np.clip((_OPEN - share) / (_OPEN - _CLOSED), 0, 1))
-    open_ = 1 - closed * (1 - unlike)
+    gap = float(np.nan_to_num(np.linalg.norm(np.diff(landmarks.points[list(_GAP), :2], axis=0))))
+    wide = gap / max(landmarks.interocular, 1e-3)
+    closed = np.clip((_OPEN - share) / (_OPEN - _CLOSED), 0, 1) * np.clip(
+        (_WIDE[1] - wide) / (_WIDE[1] - _WIDE[0]), 0, 1
+    )
+    open_ = np.asarray(1 - closed * (1 - unlike), np.float32)
     new_mouth, new_lips = features.mouth.copy(), features.lips.copy()
     new_mouth[box] = mouth * open_
     new_lips[box] = np.maximum(lips, mouth * (1 - open_))

@@ -95,9 +95,9 @@ def layer(
     worn = copy.up(own.worn(copy.down(departure)))
     eyes, around_brows = (copy.down(getattr(features, name)[box]) for name in ("eyes", "brows"))
     hair = np.float32(brows) * copy.up(brow_hair(own.pixels, own.departure, around_brows, eyes, copy.interocular))
-    own_broad, broad = (
-        copy.up(gaussian(v, _FINE * copy.interocular)) for v in (own.log, copy.down(channel_mean(departure)))
-    )
+    small = copy.down(departure)
+    own_broad, broad = (copy.up(gaussian(v, _FINE * copy.interocular)) for v in (own.log, channel_mean(small)))
+    on_lips = copy.up(_within(small, copy.down(features.lips[box]), _FINE * copy.interocular))
     facing = np.clip((surface.normals[box][..., 2] - _TURNED) / (_FACING - _TURNED), 0, 1)
     weight = np.asarray(core[box] * facing * (1 - np.minimum(features.openings[box], 1)), np.float32)
     darker = np.clip(skin_lightness / max(float(paint.skin.mean()), 1e-3), _LEAST_EXPOSURE, _LARGEST_LIGHT)
@@ -105,14 +105,17 @@ def layer(
     light, skin_log = (copy.up(np.asarray(v, np.float32)) for v in (own.light, own.skin_log))
     keep = np.float32(relief) + np.float32(relief_lips - relief) * features.lips[box]
     keep *= 1 - hair
-    pixels, opacity = photo.pixels[box], paint.opacity[box]
+    pixels, opacity, lips = photo.pixels[box], paint.opacity[box], features.lips[box]
     result = photo.pixels.copy()
     into = result[box]
 
     def strip(rows: slice) -> None:
-        put_on = departure[rows]
+        lip = lips[rows]
+        # Gloss and lines of the other lips have a color of their own, and go as a whole.
+        put_on = departure[rows] - in_three_channels(np.float32(relief_lips) * lip) * (departure[rows] - on_lips[rows])
         log = np.log(np.maximum(channel_mean(pixels[rows]), 0) + _FLOOR)
-        fine = np.clip(log - own_broad[rows] - (channel_mean(put_on) - broad[rows]), -_LARGEST_FINE, _LARGEST_FINE)
+        fine = log - own_broad[rows] - (1 - lip) * (channel_mean(departure[rows]) - broad[rows])
+        fine = np.clip(fine, -_LARGEST_FINE, _LARGEST_FINE)
         through = np.exp(keep[rows] * fine + hair[rows] * np.clip(log - skin_log[rows], -2, 0))
         a = opacity[rows] * weight[rows]
         sheer = np.exp(put_on * in_three_channels(weight[rows] * (1 - worn[rows])))
@@ -143,6 +146,12 @@ def _continued(paint: Paint, core: Mask, face: Mask, landmarks: Landmarks) -> tu
     departure = spread[..., :3] + in_three_channels(core) * (paint.departure - spread[..., :3])
     opacity = spread[..., 3] + core * (paint.opacity - spread[..., 3])
     return replace(paint, departure=departure, opacity=np.clip(opacity, 0, 1)), np.maximum(core, inside)
+
+
+def _within(values: FloatArray, mask: FloatArray, sigma: float) -> FloatArray:
+    """The values under a Gaussian, of the pixels in the mask alone."""
+    sums = gaussian(np.dstack([values * mask[..., None], mask]), sigma)
+    return np.asarray(sums[..., :3] / np.maximum(sums[..., 3:], np.float32(1e-3)), np.float32)
 
 
 class _Own:
