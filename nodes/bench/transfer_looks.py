@@ -105,17 +105,14 @@ def measured(photo: str, reference: str, made: Mapping[str, Any]) -> TransferLoo
     known = _known(made) > 0.5
     changed = np.abs(after - before).mean(axis=2)
     beyond, face = np.maximum(labels.hair, labels.background) > 0.98, labels.face > 0.5
+    brows, around = features.brows > 0.3, _around_eyes(features, landmarks)
     return TransferLook(
         photo=photo,
         reference=reference,
         skin=_skin(before, after, landmarks),
         lips=_hue_apart(after, warped, (features.lips > 0.6) & known),
-        brow=_arrived(
-            *(_darkness(v, features, landmarks) for v in (before, after, warped)), (features.brows > 0.3) & known
-        ),
-        eyes=_arrived(
-            *(_departure(v, features) for v in (before, after, warped)), _around_eyes(features, landmarks) & known
-        ),
+        brow=_arrived(brows & known, *(_darkness(v, features, landmarks) for v in (before, after, warped))),
+        eyes=_arrived(around & known, *(_departure(v, features) for v in (before, after, warped))),
         outside=_mean(255 * changed, beyond),
         untouched=_mean((changed < 1 / 255).astype(np.float32), face),
     )
@@ -138,7 +135,7 @@ def _skin(before: FloatArray, after: FloatArray, landmarks: Landmarks) -> float:
 
 def _lab(pixels: FloatArray) -> FloatArray:
     scaled = in_space(np.clip(pixels[None], 0, 1).astype(np.float32), "lab")[0]
-    return scaled / np.array([0.01, 0.02, 0.02], np.float32)
+    return np.asarray(scaled / np.array([0.01, 0.02, 0.02], np.float32), np.float32)
 
 
 def _hue_apart(after: FloatArray, warped: FloatArray, where: Any) -> float:
@@ -172,9 +169,10 @@ def _around_eyes(features: Features, landmarks: Landmarks) -> Any:
     return lids & (features.eyes < 0.3) & (features.brows < 0.1)
 
 
-def _arrived(before: FloatArray, after: FloatArray, wanted: FloatArray, where: Any) -> float:
-    """Regression of the change on the difference that was to arrive."""
+def _arrived(where: Any, *pictures: FloatArray) -> float:
+    """Regression of the change on the difference that was to arrive; pictures before, after, and the wanted one."""
     if not where.any():
         return float("nan")
-    asked, came = (wanted - before)[where], (after - before)[where]
+    before, after, wanted = (picture[where] for picture in pictures)
+    asked, came = wanted - before, after - before
     return float((asked * came).sum() / max(float(np.square(asked).sum()), 1e-6))
