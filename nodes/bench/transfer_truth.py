@@ -95,7 +95,8 @@ def makeup_truth(data: Path, out: Path, *, swaps: bool = True, intrinsic: bool =
     evaluator = MeteredEvaluator()
     methods: dict[str, Method] = {"unchanged": _unchanged, "reinhard": _reinhard, "pasted": _pasted(evaluator)}
     for name, replace in chosen.items():
-        variants = [name] if name in VARIANTS else []
+        # The layer needs no intrinsic images.
+        variants = [name] if name in VARIANTS else ["paper"] if name.startswith("intrinsic.") else []
         methods[name] = _runs(load("makeup", replace=replace, variants=variants), evaluator)
     return [_scored(name, method, pairs, out) for name, method in methods.items()]
 
