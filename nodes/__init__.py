@@ -32,13 +32,14 @@ _MODULES = {
     "warp": "mesh resample",
     "flow": "none dis farneback deepflow tvl1",
     "makeup": "features pigment albedo shading rendered exposed keep detail occluders skin loose_hair beard coverage "
-    "core boundary",
+    "core boundary closed_mouth bare_skin paint foundation layer",
     "blend": "recombine linear multiband poisson",
 }
 """The modules of each family that declare its operators; the family is the folder."""
 
 _TYPES = (
     "Albedo",
+    "BareSkin",
     "Camera",
     "Correspondence",
     "Depth",
@@ -60,6 +61,7 @@ _TYPES = (
     "Mask",
     "Mesh",
     "Normals",
+    "Paint",
     "Pins",
     "RefinedSurface",
     "Regions",
@@ -100,6 +102,7 @@ _FILES = {
 
 _PICTURES = {
     "Albedo": "maps:draw_albedo",
+    "BareSkin": "appearance:draw_bare_skin",
     "Camera": "fitting:draw_camera",
     "Correspondence": "correspondence:draw_correspondence",
     "Depth": "maps:draw_depth",
@@ -124,6 +127,7 @@ _PICTURES = {
     "MorphableModel": "mesh:draw_model",
     "NormalWeights": "features:draw_weights",
     "Normals": "maps:draw_normals",
+    "Paint": "appearance:draw_paint",
     "Pins": "points:draw_pins",
     "PixelFeatures": "features:draw_pixel_features",
     "RefinedSurface": "maps:draw_refined",

@@ -88,13 +88,14 @@ def relit_looks(
 def _look(session: Session, photo: str, name: str, scene: Scene, folder: Path) -> Look:
     session.edit(scene=scene)
     found = session.render(["image", "photo", "face.landmarks", "face.labels"])
-    _write_case(folder, found["photo"], found["image"], found["face.landmarks"], found["face.labels"])
+    write_case(folder, found["photo"], found["image"], found["face.landmarks"], found["face.labels"])
     landmarks = found["face.landmarks"]
     rim = rim_dip(_shadow(session, scene), landmarks, found["face.labels"].face) if scene.casting else np.nan
     return Look(photo, name, _far_over_near(found["image"], landmarks, scene), rim)
 
 
-def _write_case(folder: Path, photo: Image, result: Image, landmarks: Landmarks, labels: Segmentation) -> None:
+def write_case(folder: Path, photo: Image, result: Image, landmarks: Landmarks, labels: Segmentation) -> None:
+    """Photo, result, landmarks and labels as files in a folder, which is made where it does not exist."""
     make_folder(folder)
     write_image(photo, folder / "photo.png")
     write_image(result, folder / "result.png")

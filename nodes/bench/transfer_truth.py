@@ -25,6 +25,7 @@ from graphface.values.writing import make_folder
 
 SWAPS: dict[str, dict[str, str]] = {
     "makeup": {},
+    "paper": {},
     "flow.none": {"pair/flow": "flow.none"},
     "flow.farneback": {"pair/flow": "flow.farneback"},
     "flow.deepflow": {"pair/flow": "flow.deepflow"},
@@ -32,26 +33,35 @@ SWAPS: dict[str, dict[str, str]] = {
     "blend.multiband": {"blended": "blend.multiband"},
     "blend.poisson": {"blended": "blend.poisson"},
 }
-"""Name to the replacements in makeup.yaml that it stands for."""
+"""Name to the replacements in makeup.yaml that it stands for; a name that is a variant of it stands for that."""
+
+VARIANTS = ("paper",)
 
 INTRINSIC = ("retinex", "multiscale_retinex", "bilateral", "log_tv", "l1_flatten", "bell2014")
 
 TRUTHS = ("full", "own")
 
+ZONES = ("opaque", "bare")
+"""Parts of the face label in which the truth "own" is compared as well: opacity of the paint above 0.5, and 0."""
+
 
 @dataclass(frozen=True)
 class Pair:
-    """Head A, the picture of its makeup's reference B, and the true answers by their meaning, of `TRUTHS`."""
+    """Head A, the picture of its makeup's reference B, and the true answers by their meaning, of `TRUTHS`.
+
+    `alpha` is the picture of the paint's true opacity, where there is one.
+    """
 
     name: str
     head: Head
     reference: Path
     truths: Mapping[str, Path]
+    alpha: Path | None = None
 
 
 @dataclass(frozen=True)
 class Scored:
-    """One method: PSNR in dB and SSIM by truth, means over the pairs that have it.
+    """One method: PSNR in dB and SSIM by truth, means over the pairs that have it; by zone of `ZONES` PSNR alone.
 
     `milliseconds` of CPU for the transfer of the median pair, what each photo gives alone at hand; None where a method
     is no graph.
@@ -78,13 +88,16 @@ def makeup_truth(data: Path, out: Path, *, swaps: bool = True, intrinsic: bool =
         UnreadableFile: there are no pairs at `data`.
     """
     pairs = pairs_of(data)
-    chosen = dict(SWAPS) if swaps else {"makeup": {}}
+    chosen = dict(SWAPS) if swaps else {name: SWAPS[name] for name in ("makeup", *VARIANTS)}
     if intrinsic:
         nodes = ("pair/face/intrinsic", "pair/other/intrinsic")
         chosen |= {f"intrinsic.{m}": dict.fromkeys(nodes, f"intrinsic.{m}") for m in INTRINSIC}
     evaluator = MeteredEvaluator()
     methods: dict[str, Method] = {"unchanged": _unchanged, "reinhard": _reinhard, "pasted": _pasted(evaluator)}
-    methods |= {name: _runs(load("makeup", replace=replace), evaluator) for name, replace in chosen.items()}
+    for name, replace in chosen.items():
+        # The layer needs no intrinsic images.
+        variants = [name] if name in VARIANTS else ["paper"] if name.startswith("intrinsic.") else []
+        methods[name] = _runs(load("makeup", replace=replace, variants=variants), evaluator)
     return [_scored(name, method, pairs, out) for name, method in methods.items()]
 
 
@@ -105,7 +118,9 @@ def pairs_of(data: Path) -> list[Pair]:
         name = path.stem.removesuffix("_full")
         head, reference = name.split("_from_")
         truths = {meaning: makeup / f"{name}_{meaning}.png" for meaning in TRUTHS}
-        pairs.append(Pair(name, Head(truth / head), makeup / f"{reference}_makeup.png", truths))
+        alpha = makeup / f"{name}_alpha.png"
+        found = alpha if alpha.is_file() else None
+        pairs.append(Pair(name, Head(truth / head), makeup / f"{reference}_makeup.png", truths, found))
     if not pairs:
         raise UnreadableFile(truth / "makeup", "holds no pairs (A_from_B.png)")
     return pairs
@@ -164,13 +179,30 @@ def _scored(name: str, method: Method, pairs: list[Pair], out: Path) -> Scored:
         write_image(result, out / name / f"{pair.name}.png")
         for truth, path in pair.truths.items():
             figures.setdefault(truth, []).append(_compared(result.pixels, read_image(path).pixels, pair.head.face))
+        for zone, label in _zones(pair).items():
+            figures.setdefault(zone, []).append((_psnr(result.pixels, read_image(pair.truths["own"]).pixels, label), 0))
     means = {truth: np.mean(rows, axis=0) for truth, rows in figures.items()}
     return Scored(
         method=name,
         psnr={truth: float(mean[0]) for truth, mean in means.items()},
-        ssim={truth: float(mean[1]) for truth, mean in means.items()},
+        ssim={truth: float(mean[1]) for truth, mean in means.items() if truth in TRUTHS},
         milliseconds=float(np.median(spent)) if spent else None,
     )
+
+
+def _zones(pair: Pair) -> dict[str, Mask]:
+    """Of `ZONES`, the labels that the pair's true opacity gives."""
+    if pair.alpha is None or "own" not in pair.truths:
+        return {}
+    alpha = read_image(pair.alpha).pixels.mean(axis=2)
+    parts = dict(zip(ZONES, (alpha > 0.5, alpha == 0), strict=True))
+    labels = {zone: np.asarray(pair.head.face * part, np.float32) for zone, part in parts.items()}
+    return {zone: label for zone, label in labels.items() if label.any()}
+
+
+def _psnr(result: FloatArray, truth: FloatArray, label: Mask) -> float:
+    """PSNR over a label, of the result as 8 bits hold it."""
+    return psnr(np.asarray(np.rint(np.clip(result, 0, 1) * 255) / 255, np.float32), truth, label)
 
 
 def _compared(result: FloatArray, truth: FloatArray, label: Mask) -> tuple[float, float]:
@@ -181,4 +213,4 @@ def _compared(result: FloatArray, truth: FloatArray, label: Mask) -> tuple[float
     maps: Any = structural_similarity(  # type: ignore[no-untyped-call]
         shown.astype(np.float64), truth.astype(np.float64), data_range=1, channel_axis=2, full=True
     )
-    return psnr(shown, truth, label), float(maps[1][label > 0].mean())
+    return _psnr(result, truth, label), float(maps[1][label > 0].mean())

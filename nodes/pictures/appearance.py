@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from graphface.nodes.pictures.maps import draw_albedo, draw_detail, draw_gain, draw_shading
+from graphface.nodes.pictures.masks import draw_mask
 from graphface.nodes.pictures.mosaic import mosaic, tile_view
-from graphface.nodes.types import DetailMap, Intrinsic
+from graphface.nodes.pictures.photo import draw_image
+from graphface.nodes.types import BareSkin, DetailMap, Image, Intrinsic, Paint
 from graphface.values.picture import Picture, View
 
 
@@ -23,3 +25,16 @@ def draw_detail_map(detail: DetailMap, view: View) -> Picture:
     tile = tile_view(view, 2, 2)
     offset, gain = draw_detail(detail.offset, tile), draw_gain(detail.gain, tile)
     return mosaic([("offset", offset), ("gain", gain)], f"offset: {offset.note}; gain: {gain.note}", columns=2)
+
+
+def draw_bare_skin(bare: BareSkin, view: View) -> Picture:
+    """The field of colors."""
+    return draw_image(Image(bare.color), view)
+
+
+def draw_paint(paint: Paint, view: View) -> Picture:
+    """Departure and opacity side by side."""
+    tile = tile_view(view, 2, 2)
+    departure, opacity = draw_detail(paint.departure, tile), draw_mask(paint.opacity, tile)
+    note = f"departure, natural logarithms: {departure.note}; opacity: {opacity.note}"
+    return mosaic([("departure", departure), ("opacity", opacity)], note, columns=2)

@@ -30,6 +30,7 @@ from graphface.nodes.types.illumination import Environment, Lighting, LightingFi
 from graphface.nodes.types.image import FileFormat, Image
 from graphface.nodes.types.judgements import Judgement, Judgements
 from graphface.nodes.types.lights import DirectionalLight, EnvironmentLight, HarmonicLight, Light, PointLight, SpotLight
+from graphface.nodes.types.makeup import BareSkin, Paint
 from graphface.nodes.types.relighting import Samples, Shadows, Surroundings
 from graphface.nodes.types.representation import Representation
 from graphface.nodes.types.scene import Scene
@@ -37,6 +38,7 @@ from graphface.nodes.types.scene import Scene
 __all__ = [
     "REGIONS",
     "Albedo",
+    "BareSkin",
     "Camera",
     "Correspondence",
     "Depth",
@@ -66,6 +68,7 @@ __all__ = [
     "Mask",
     "Mesh",
     "Normals",
+    "Paint",
     "Pins",
     "PointLight",
     "RefinedSurface",

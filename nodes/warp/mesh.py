@@ -87,7 +87,7 @@ def mesh(
     reference = _Reference(reference_mesh, reference_visible, masks, size)
     places, valid = _interpolated(surface, visible, reference, np.arange(len(visible)))
     if pins is not None and len(pins.points):
-        places = places + _pin_corrections(places, pins, pin_reach * mesh.interocular)
+        places = places + _pin_corrections(places, inside > 0, pins, pin_reach * mesh.interocular)
     if hidden == "input":
         return Correspondence(places, inside, valid, size)
     mirror = _mirror_vertices(mesh)
@@ -192,17 +192,36 @@ def _mirror_vertices(mesh: Mesh) -> NDArray[np.int32] | None:
     return np.concatenate([known, np.arange(len(known), count, dtype=np.int32)])
 
 
-def _pin_corrections(places: FloatArray, pins: Pins, sigma: float) -> FloatArray:
+def _pin_corrections(places: FloatArray, inside: NDArray[np.bool_], pins: Pins, sigma: float) -> FloatArray:
     """H x W x 2 to add to the places: each pin's correction under a Gaussian window, normalized where windows overlap.
 
+    A pin beside the mesh, where there are no places, corrects that of the nearest pixel of the mesh, moved by as much.
     Shepard, A two-dimensional interpolation function for irregularly-spaced data, 1968, with Gaussian weights.
     """
+    on_mesh = np.argwhere(inside)
     height, width = places.shape[:2]
     y, x = np.ogrid[:height, :width]
     total, weight = np.zeros_like(places), np.zeros((height, width), np.float32)
     for px, py, rx, ry in pins.points:
         row, column = (int(np.clip(round(float(p)), 0, n - 1)) for p, n in ((py, height), (px, width)))
         near = np.exp(-((x - px) ** 2 + (y - py) ** 2) / np.float32(2 * max(sigma, 1e-3) ** 2)).astype(np.float32)
-        total += near[..., None] * (np.array([rx, ry], np.float32) - places[row, column])
+        at, off = (row, column), np.zeros(2, np.float32)
+        if not inside[at]:
+            nearest = on_mesh[np.argmin(np.square(on_mesh - at).sum(axis=1))]
+            at, off = (
+                (nearest[0], nearest[1]),
+                _step(places, inside, nearest) * np.subtract((column, row), nearest[::-1]),
+            )
+        total += near[..., None] * (np.array([rx, ry], np.float32) - places[at] - off)
         weight += near
     return np.asarray(total / np.maximum(weight, 1)[..., None], np.float32)
+
+
+def _step(places: FloatArray, inside: NDArray[np.bool_], at: NDArray[Any], radius: int = 4) -> float:
+    """Pixels of the reference per pixel of the input around a pixel of the mesh: the median, 1 where none is known."""
+    around = tuple(slice(max(0, int(i) - radius), int(i) + radius + 2) for i in at)
+    both = inside[around][1:, 1:] & inside[around][:-1, :-1]
+    if not both.any():
+        return 1.0
+    steps = (places[around][1:, 1:] - places[around][:-1, :-1])[both]
+    return float(np.median(np.hypot(steps[:, 0], steps[:, 1])) / np.sqrt(2))

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from graphface import node
+from graphface.nodes.color import in_three_channels
 from graphface.nodes.resample import resampled
-from graphface.nodes.types import Albedo, Correspondence, DetailMap, Image, Mask, Shading
+from graphface.nodes.types import Albedo, Correspondence, DetailMap, Image, Mask, Paint, Shading
 
 
 @node("warp.photo")
@@ -40,3 +41,13 @@ def detail(reference: DetailMap, correspondence: Correspondence) -> DetailMap:
     """The reference's detail map, every part of it, at the input's pixels; see `resampled`."""
     parts = {name: v for name, v in vars(reference).items() if isinstance(v, np.ndarray)}
     return replace(reference, **{name: resampled(v, correspondence) for name, v in parts.items()})
+
+
+@node("warp.paint")
+def paint(reference: Paint, correspondence: Correspondence) -> Paint:
+    """The reference's makeup at the input's pixels; see `resampled`."""
+    layer = resampled(np.dstack([reference.departure, reference.opacity]), correspondence)
+    known = np.minimum(correspondence.inside, 1)
+    opacity = np.asarray(np.clip(layer[..., 3], 0, 1) * known, np.float32)
+    departure = np.ascontiguousarray(layer[..., :3]) * in_three_channels(known)
+    return replace(reference, opacity=opacity, departure=departure)

@@ -19,6 +19,6 @@ def operators(graph):
 
 @pytest.mark.parametrize(("path", "name"), VARIANTS, ids=lambda v: v.stem if isinstance(v, Path) else v)
 def test_variant(path, name):
-    """It loads, and differs from the shipped graph unless it is the shipped graph."""
+    """It loads, and differs from the graph as it is unless it stands for that; makeup's ablations are the paper's."""
     changed = operators(load(path, variants=[name])) != operators(load(path))
-    assert changed == (name != "as-shipped")
+    assert changed == ((path.stem, name) != ("makeup-transfer", "paper") and name != "as-shipped")

@@ -80,8 +80,9 @@ class TestHardPairs:
         transferred(graph, astronaut, shrunk(astronaut, 60))
 
     def test_identical(self, astronaut, graph):
-        """A photo onto itself comes back."""
-        result, photo = transferred(graph, astronaut, astronaut)
+        """A photo onto itself comes back: the whole albedo, the whole detail."""
+        choices = {"variants": ["paper"]} if graph == "makeup" else {}
+        result, photo = transferred(graph, astronaut, astronaut, **choices)
         assert np.abs(result - photo).max() <= 2 / 255
 
     def test_no_face_is_said(self, astronaut, graph):
@@ -93,11 +94,34 @@ class TestHardPairs:
 
 class TestMakeup:
     def test_a_grey_reference_takes_the_colour(self, astronaut):
-        """Grey skin makes the face grey: its colourfulness falls to less than a third."""
-        result, photo = transferred("makeup", astronaut, grey(astronaut))
+        """The paper's method moves skin: grey skin makes the face grey, its colourfulness falls below a third."""
+        result, photo = transferred("makeup", astronaut, grey(astronaut), variants=["paper"])
         changed = np.abs(result - photo).max(axis=2) > 0.02
         saturation = [np.ptp(pixels[changed], axis=1).mean() for pixels in (result, photo)]
         assert saturation[0] < saturation[1] / 3
+
+    def test_a_grey_reference_leaves_color(self, astronaut):
+        """A black-and-white photo shows no pigment: as a layer it darkens, and the face keeps its color."""
+        result, photo = transferred("makeup", astronaut, grey(astronaut))
+        changed = np.abs(result - photo).max(axis=2) > 0.02
+        saturation = [np.ptp(pixels[changed], axis=1).mean() for pixels in (result, photo)]
+        assert saturation[0] > 0.6 * saturation[1]
+
+    def test_what_is_worn_already_is_not_put_on_twice(self, astronaut):
+        """The photo's own makeup over itself changes it by less than a grey level in the mean."""
+        result, photo = transferred("makeup", astronaut, astronaut)
+        change = np.abs(result - photo).max(axis=2)
+        assert change.mean() < 1 / 255
+        assert np.quantile(change, 0.99) < 20 / 255
+
+    def test_bare_skin_stays(self, astronaut):
+        """Where the reference wears nothing the photo stays to the last bit."""
+        graph = graphface.load("makeup")
+        asked = ["image", "pair.working", "pair.paint", "pair.core"]
+        made = graph.run(asked, photo=astronaut, reference=mirrored(astronaut))
+        bare = ~((made["pair.paint"].departure != 0).any(axis=2) | (made["pair.paint"].opacity > 0))
+        np.testing.assert_array_equal(made["image"].pixels[bare], made["pair.working"].pixels[bare])
+        assert bare[made["pair.core"] > 0.5].mean() > 0.2
 
     def test_half_strength_lies_between(self, astronaut):
         """Half the strength is half of the way."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from graphface.nodes.makeup.features import features
 from graphface.nodes.types import Correspondence, Features, Image, Landmarks, Mask, Mesh, Surface
@@ -29,6 +30,12 @@ class Face:
     @property
     def nowhere(self) -> Mask:
         return np.zeros((SIZE, SIZE), np.float32)
+
+    def disc(self, radius: float) -> NDArray[np.bool_]:
+        """Pixels around the middle of a cheek; the radius in inter-ocular distances."""
+        x, y = self.landmarks.points[50, :2]
+        rows, columns = np.ogrid[:SIZE, :SIZE]
+        return np.hypot(columns - x, rows - y) < radius * self.landmarks.interocular
 
     @property
     def onto_itself(self) -> Correspondence:

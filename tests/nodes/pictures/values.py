@@ -14,6 +14,7 @@ from graphface.nodes.masks.label_weights import LabelWeights, shipped_weights
 from graphface.nodes.masks.window import Window
 from graphface.nodes.morphable.builtin import builtin_model
 from graphface.nodes.types import (
+    BareSkin,
     Camera,
     Correspondence,
     DetailMap,
@@ -32,6 +33,7 @@ from graphface.nodes.types import (
     Lighting,
     LightingFit,
     Mesh,
+    Paint,
     Pins,
     PointLight,
     RefinedSurface,
@@ -151,6 +153,7 @@ def representation() -> Representation:
 
 VALUES: dict[str, Callable[[], Any]] = {
     "Albedo": colors,
+    "BareSkin": lambda: BareSkin(colors(), 0.03, 0.0, 1.0),
     "Camera": lambda: Camera(300.0, (200.0, 150.0), 0.001),
     "Correspondence": correspondence,
     "Depth": lambda: surface().depth,
@@ -176,6 +179,7 @@ VALUES: dict[str, Callable[[], Any]] = {
     "Mesh": mesh,
     "MorphableModel": builtin_model,
     "Normals": normals,
+    "Paint": lambda: Paint(unit(), colors() - 0.5, unit(3)),
     "Pins": lambda: Pins(np.float32([[1, 2, 20, 10], [5, 5, 6, 6]])),
     "PixelFeatures": lambda: PixelFeatures(Window(0, 24, 0, 32, 12, 16), unit(12, 16, 11)),
     "RefinedSurface": lambda: RefinedSurface(surface(), unit()),

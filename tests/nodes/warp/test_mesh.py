@@ -93,6 +93,15 @@ class TestMesh:
         found = correspond(surface, mesh, surface, mesh, None, np.zeros_like(surface.coverage), hidden="input")
         assert found.valid.max() < 0.1
 
+    def test_a_pin_beside_the_mesh(self, make_face):
+        """A pin a few pixels off the face, where it and its place agree with the mesh, moves nothing."""
+        _, _, mesh, surface = make_face()
+        plain = correspond(surface, mesh, surface, mesh)
+        columns = np.flatnonzero(plain.inside[90])
+        beside = columns[-1] + 5
+        found = correspond(surface, mesh, surface, mesh, pins=Pins(np.array([[beside, 90, beside, 90]], np.float32)))
+        assert np.abs(found.places - plain.places)[plain.inside > 0].max() < 0.5
+
     def test_pins_are_met(self, make_face):
         """A correspondence set by hand is what comes out at its pixel, and far away nothing changes."""
         _, _, mesh, surface = make_face()

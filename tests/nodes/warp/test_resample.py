@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphface.nodes.types import Correspondence, DetailMap, Image
+from graphface.nodes.types import Correspondence, DetailMap, Image, Paint
 from graphface.nodes.warp import resample
 from graphface.nodes.warp.mesh import mesh as correspond
 
@@ -54,3 +54,15 @@ class TestMask:
         assert got.min() >= 0
         assert got.max() <= 1
         np.testing.assert_allclose(got[:, 7], 0.5, atol=0.02)
+
+
+class TestPaint:
+    def test_every_part_of_a_layer(self, rng):
+        """Opacity and departure are both resampled, within their ranges; the skin of the wearer stays."""
+        opacity, departure = rng.random((8, 8), np.float32), rng.random((8, 8, 3), np.float32)
+        skin = np.float32([0.8, 0.6, 0.5])
+        moved = resample.paint(Paint(opacity, departure, skin), shifted(8, 1, 0))
+        np.testing.assert_allclose(moved.opacity[:, :7], opacity[:, 1:], atol=1e-6)
+        np.testing.assert_allclose(moved.departure[:, :7], departure[:, 1:], atol=1e-6)
+        assert moved.opacity.max() <= 1
+        assert moved.skin is skin

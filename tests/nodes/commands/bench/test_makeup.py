@@ -15,13 +15,13 @@ class TestBenchMakeup:
         write_picture(face, heads / "truth/makeup/gt01_from_gt01.png")
         said = command("bench", "makeup", tmp_path / "out", "--data", heads, "--no-swaps")
         assert said.code == 0, said.err
-        methods = ("unchanged", "reinhard", "pasted", "makeup")
+        methods = ("unchanged", "reinhard", "pasted", "makeup", "paper")
         assert all((tmp_path / "out" / method / "gt01_from_gt01.png").is_file() for method in methods)
         assert len(said.figures("unchanged")) == 2
-        psnr, _, spent, ratio = said.figures("makeup")
+        psnr, _, spent, ratio = said.figures("paper")
         assert float(psnr) > 30
         assert float(spent) > 0
-        assert float(ratio) == 1
+        assert float(ratio) > 0
 
     def test_no_pairs(self, command, tmp_path):
         """A folder without pairs is named."""
