@@ -7,7 +7,7 @@ import pytest
 from graphface import Evaluator, Registry, load
 from graphface.cli.following import Follower, TraceFile
 from graphface.cli.run_once import run_once
-from graphface.errors import RunError, UsageError
+from graphface.errors import UsageError
 
 TEXT = "graphface: 1\nname: one\ninputs: {x: {type: float, default: 1}}\nnodes: {a: {use: toy.grid}}\n"
 
@@ -35,15 +35,6 @@ class TestFiles:
         for output, followers in ((["y=a.npy", "a=./a.npy"], []), ([f"y={tmp_path / 'a.npy'}"], [trace])):
             with pytest.raises(UsageError, match="would be written to this one file"):
                 run_once(graph, output, {}, Evaluator(), followers, history=None)
-
-    def test_the_others_are_written(self, registry: Registry, tmp_path: Path) -> None:
-        """Where one cannot be written when it is there, those after it are."""
-        number = "nodes: {n: {use: toy.number}, m: {use: toy.number}, a: {use: toy.grid}}\n"
-        graph = load(f"graphface: 1\n{number}outputs: {{y: a}}\n", registry=registry)
-        output = [f"{name}={tmp_path / name}.npz" for name in "nma"]
-        with pytest.raises(RunError, match=r"n\.npz.*\n.*m\.npz"):
-            run_once(graph, output, {}, Evaluator(), [], history=None)
-        assert (tmp_path / "a.npz").is_file()
 
 
 def test_written(registry: Registry, tmp_path: Path) -> None:
