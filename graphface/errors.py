@@ -210,6 +210,12 @@ class RefusedOutput(UnwritableFile, UsageError):
     """As `UnwritableFile`, and seen before anything was run: a missing folder, a suffix that no writer knows."""
 
 
+def out_of_memory(error: Exception) -> str:
+    """What is told of an allocation that failed."""
+    wanted = f" ({error})" if str(error) else ""
+    return f"out of memory{wanted}; a smaller picture takes less, and so does --threads 1"
+
+
 def nearest_names(name: str, known: Iterable[str], count: int = 3) -> list[str]:
     """The known names most like `name`, best first; the same word behind another prefix ("face/light") is nearest."""
     candidates = list(known)

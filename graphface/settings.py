@@ -80,10 +80,15 @@ def _configured() -> Mapping[str, Any]:
     """
     import tomllib
 
+    from graphface.fallback import warn
+
     path = config_path()
     try:
         settings = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
+        return {}
+    except PermissionError:
+        warn(f"{path} may not be read: the defaults are used")
         return {}
     except (OSError, ValueError) as error:
         raise UsageError(f"{path}: {error}") from None

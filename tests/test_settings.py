@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from graphface import MemoryTier, UsageError, settings
-from graphface.settings import cache_size, memory_budget, parse_size
+from graphface.fallback import GraphfaceWarning
+from graphface.settings import DEFAULTS, cache_size, memory_budget, parse_size
 
 
 @pytest.fixture
@@ -71,6 +72,25 @@ class TestOrder:
         monkeypatch.setenv("GRAPHFACE_MEMORY", "4G")
         assert MemoryTier().budget == 4 * 10**9
         assert MemoryTier(1000).budget == 1000
+
+
+class TestNoHome:
+    """Who has no folder of settings, or may not look into it, has the defaults."""
+
+    def test_is_no_folder(self, config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        """A home that is a file."""
+        monkeypatch.setattr("graphface.settings.config_path", lambda: Path("/dev/null/config.toml"))
+        assert memory_budget() == DEFAULTS["memory"]
+
+    def test_denied(self, config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        """One of somebody else, with a warning."""
+
+        def denied(path: Path, **_: object) -> str:
+            raise PermissionError(13, "Permission denied")
+
+        monkeypatch.setattr(Path, "read_text", denied)
+        with pytest.warns(GraphfaceWarning, match="may not be read"):
+            assert memory_budget() == DEFAULTS["memory"]
 
 
 class TestMistakes:

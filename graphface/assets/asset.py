@@ -120,7 +120,7 @@ def asset_path(asset: Asset, companions: Iterable[Asset] = ()) -> Path:
 def asset_status(asset: Asset) -> AssetStatus:
     """Where `asset` is on this machine; fetches nothing. A file with a wrong hash is warned about and passed over."""
     for path, place in _candidates(asset):
-        if not path.is_file():
+        if not os.path.isfile(path):  # a folder that may not be entered holds none
             continue
         if _sha256(path) == asset.sha256:
             return AssetStatus(asset, path, place)

@@ -84,8 +84,9 @@ class DiskTier:
             data, descriptor = read(path)
         except FileNotFoundError:
             return self._missing()
-        except OSError as error:
-            self._report(f"cache entry {path} cannot be read ({error.strerror}); computing it again")
+        except (OSError, MemoryError) as error:
+            reason = error.strerror if isinstance(error, OSError) else "out of memory"
+            self._report(f"cache entry {path} cannot be read ({reason}); computing it again")
             return self._missing()
         try:
             tensors, structure, meta = unpack(memoryview(data), key)
@@ -125,7 +126,7 @@ class DiskTier:
             if annotation is not None:
                 decode(tensors, structure, annotation)
             buffers = pack(tensors, structure, key, about)
-        except (CodecError, TypeError, ValueError, RecursionError) as error:
+        except (CodecError, TypeError, ValueError, RecursionError, MemoryError) as error:
             self._report(f"a value of type {type(value).__qualname__} is not cached on disk: {error}")
             return False
         size = sum(len(buffer) for buffer in buffers)

@@ -53,6 +53,7 @@ class Folder:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._numbers = count()
+        self._prepared = False
 
     def entry(self, key: bytes) -> str:
         """Where the entry of a key lies."""
@@ -79,10 +80,20 @@ class Folder:
         return any(not item.name.startswith(f"{MARK}.") for item in self.path.iterdir()) and not self.marked()
 
     def marked(self) -> bool:
+        """Whether the mark is ours; one that a full disk or a power cut left empty is, where all beside it looks it."""
+        text = self._mark()
+        if text is None or text.startswith(_MARK_TEXT[:90]):
+            return text is not None
+        return _MARK_TEXT.startswith(text.rstrip("\0")) and all(
+            _SHARD.fullmatch(item.name) or item.name in (MARK, "history") or item.name.startswith(f"{MARK}.")
+            for item in _scan(self.path)
+        )
+
+    def _mark(self) -> str | None:
         try:
-            return (self.path / MARK).read_text("utf-8", "replace").startswith(_MARK_TEXT[:90])
+            return (self.path / MARK).read_text("utf-8", "replace")
         except OSError:
-            return False
+            return None
 
     def prepare(self, shard: str) -> None:
         """Make the folder, its mark and the shard, where they are missing.
@@ -92,10 +103,11 @@ class Folder:
         """
         if os.path.islink(shard):
             raise OSError(f"{shard} is a symbolic link")
-        if os.path.isdir(shard):
+        if self._prepared and os.path.isdir(shard):
             return
         self.path.mkdir(parents=True, exist_ok=True)
-        if not self.marked():
+        self._prepared = True
+        if self._mark() != _MARK_TEXT:
             # Renamed into place like an entry: a mark cut short would lock the folder for good.
             draft = self.path / f"{MARK}.{os.getpid()}.{threading.get_ident()}"
             with replacing(str(self.path / MARK), str(draft)):

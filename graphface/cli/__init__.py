@@ -86,7 +86,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _guarded(arguments: list[str] | None) -> int:
-    from graphface.errors import GraphfaceError, UsageError
+    from graphface.errors import GraphfaceError, UsageError, out_of_memory
 
     try:
         with _spoken_warnings():
@@ -99,6 +99,9 @@ def _guarded(arguments: list[str] | None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         _say("interrupted; what was computed is kept where a cache is in use")
         return _INTERRUPTED
+    except MemoryError as error:
+        _say(out_of_memory(error))
+        return 1
     except BrokenPipeError:
         sys.stderr.close()
         return 1

@@ -15,21 +15,23 @@ from graphface.values.writing import check_folder
 class FailureFile(FirstFailure, Follower):
     """`--save-failure FILE.zip`: written only where a node fails."""
 
+    what = "--save-failure"
+
     def __init__(self, path: Path) -> None:
         super().__init__()
-        self._path = path
+        self.path: Path = path
 
     def check(self) -> None:
-        check_folder(self._path)
-        if self._path.suffix.lower() != ".zip":
-            raise UsageError(f"--save-failure {self._path}: the name ends in .zip")
+        check_folder(self.path)
+        if self.path.suffix.lower() != ".zip":
+            raise UsageError(f"--save-failure {self.path}: the name ends in .zip")
 
     def write(self) -> None:
         if self.failed is None:
             return
         try:
-            write_failure(self.failed, self._path)
+            write_failure(self.failed, self.path)
         except UnwritableFile as error:
             warn(f"the failure is not saved: {error}")
         else:
-            print(f"node {self.failed.step.name!r} is in {self._path}: graphface replay {self._path}", file=sys.stderr)
+            print(f"node {self.failed.step.name!r} is in {self.path}: graphface replay {self.path}", file=sys.stderr)

@@ -12,7 +12,10 @@ from graphface.values.writing import check_folder
 
 
 class Follower(Observer):
-    """An observer of one run with something to write at its end."""
+    """An observer of one run with something to write at its end: `what`, to `path` where that is one file."""
+
+    what: str = ""
+    path: Path | None = None
 
     def check(self) -> None:
         """See before anything runs that the result could be written.
@@ -31,15 +34,17 @@ class Follower(Observer):
 class TraceFile(Trace, Follower):
     """`--trace run.json`."""
 
+    what = "--trace"
+
     def __init__(self, path: Path, *, peaks: bool) -> None:
         super().__init__(peaks=peaks)
-        self._path = path
+        self.path: Path = path
 
     def check(self) -> None:
-        check_folder(self._path)
+        check_folder(self.path)
 
     def write(self) -> None:
-        self.write_to(self._path)
+        self.write_to(self.path)
 
 
 @contextmanager

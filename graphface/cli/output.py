@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from graphface.errors import GraphfaceError, RunError
 from graphface.evaluate.evaluator import Evaluator
 from graphface.evaluate.observe import Observer
 from graphface.graph.structure import Ref
@@ -30,7 +31,7 @@ class OutputFiles:
         """See before anything runs that they can be written.
 
         Raises:
-            RefusedOutput: one cannot.
+            UsageError: one cannot.
         """
         for name, path in files.items():
             check_output(path, self._types[name], self._graph.registry.files)
@@ -42,15 +43,23 @@ class OutputFiles:
         return [self._drawn] if self._drawn.wanted else []
 
     def write(self, values: Mapping[str, Any], files: Mapping[str, Path]) -> None:
-        """Write the values of a run.
+        """Write the values of a run; where one cannot be written, the others are all the same.
 
         Raises:
-            UnwritableFile: one could not be written.
+            GraphfaceError: some could not be written, each with its reason.
         """
         files_of, text = self._graph.registry.files, self._graph.provenance()
+        failed: list[GraphfaceError] = []
         for name, path in files.items():
-            check_folder(path)
-            if is_drawn(values[name], self._types[name], path, files_of):
-                write_pixels(self._drawn.picture(name, values[name]).pixels, path)
-            else:
-                write_output(values[name], self._types[name], path, files_of, text=text)
+            try:
+                check_folder(path)
+                if is_drawn(values[name], self._types[name], path, files_of):
+                    write_pixels(self._drawn.picture(name, values[name]).pixels, path)
+                else:
+                    write_output(values[name], self._types[name], path, files_of, text=text)
+            except GraphfaceError as error:
+                failed.append(error)
+        if len(failed) == 1:
+            raise failed[0]
+        if failed:
+            raise RunError("\n".join(str(error) for error in failed))

@@ -48,9 +48,23 @@ def _filled(template: str, given: Mapping[str, str]) -> str:
     return re.sub(r"\{([^{}]*)\}", stem, template)
 
 
+def check_apart(results: Iterable[tuple[str, Path]]) -> None:
+    """Refuse before anything runs to write two results into one file: the first would be lost.
+
+    Args:
+        results: what is written, in words, and its file.
+    """
+    seen: dict[str, str] = {}
+    for what, path in results:
+        place = os.path.realpath(path)
+        if place in seen:
+            raise UsageError(f"{path}: {seen[place]} and {what} would be written to this one file; name two")
+        seen[place] = what
+
+
 def check_kept(results: Iterable[Path], given: Iterable[str]) -> None:
     """Refuse before anything runs to write a result over a file that was given."""
     kept = {os.path.realpath(file) for file in given}
     for path in results:
         if os.path.realpath(path) in kept:
-            raise UsageError(f"-o {path}: this file is an input, and would be lost; give the result another name")
+            raise UsageError(f"{path}: this file is an input, and would be lost; give the result another name")

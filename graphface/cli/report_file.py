@@ -12,15 +12,17 @@ from graphface.report.recorder import Find, Recorder
 class ReportFile(Recorder, Follower):
     """`--report run.html`."""
 
+    what = "--report"
+
     def __init__(self, path: Path, size: int, find: Find) -> None:
         super().__init__(find, size)
-        self._path = path
+        self.path: Path = path
 
     def check(self) -> None:
-        check_report(self._path)
+        check_report(self.path)
 
     def stopped(self, error: BaseException | None) -> None:
         Recorder.stopped(self, error)
 
     def write(self) -> None:
-        write_report(self, self._path)
+        write_report(self, self.path)

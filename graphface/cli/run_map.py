@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import itertools
+import os
 from pathlib import Path
 
 from graphface.cli.output import OutputFiles
-from graphface.cli.output_names import check_kept, output_files
+from graphface.cli.output_names import check_apart, check_kept, output_files
 from graphface.errors import UsageError
 from graphface.evaluate.evaluator import Evaluator
 from graphface.evaluate.mapping import MapFailed, read_maps, run_over
@@ -54,17 +55,20 @@ def run_map(
 
 
 def _check_distinct(graph: WiredGraph, output: list[str], given: dict[str, str], over: dict[str, list[str]]) -> None:
-    """Refuse before anything runs what would write a file twice or into a folder that is not there."""
-    seen: dict[Path, tuple[str, ...]] = {}
+    """Refuse before anything runs what would write a file twice or where nothing can be written."""
+    seen: dict[str, tuple[str, ...]] = {}
     for values in itertools.product(*over.values()):
-        for path in output_files(graph, output, {**given, **dict(zip(over, values, strict=True))}).values():
-            if path in seen:
+        files = output_files(graph, output, {**given, **dict(zip(over, values, strict=True))})
+        check_apart((f"output {name!r}", path) for name, path in files.items())
+        for path in files.values():
+            place = os.path.realpath(path)
+            if place in seen:
                 places = " ".join("{" + name + "}" for name in over)
                 raise UsageError(
-                    f"{path}: would be written for {', '.join(seen[path])} and for {', '.join(values)}; "
+                    f"{path}: would be written for {', '.join(seen[place])} and for {', '.join(values)}; "
                     f"name the mapped inputs in -o ({places}), and give their files different names"
                 )
-            seen[path] = values
-    check_kept(seen, itertools.chain(given.values(), *over.values()))
-    for folder in {path.parent for path in seen}:
-        check_folder(folder / "result")
+            seen[place] = values
+    check_kept(map(Path, seen), itertools.chain(given.values(), *over.values()))
+    for folder in {os.path.dirname(place) for place in seen}:
+        check_folder(Path(folder, "result"))

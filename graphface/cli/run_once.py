@@ -8,7 +8,7 @@ from typing import Any
 
 from graphface.cli.following import Follower, written
 from graphface.cli.output import OutputFiles
-from graphface.cli.output_names import check_kept, output_files
+from graphface.cli.output_names import check_apart, check_kept, output_files
 from graphface.evaluate.evaluator import Evaluator
 from graphface.evaluate.observe import Observer
 from graphface.facade import Graph
@@ -43,7 +43,10 @@ def run_once(
     asked = graph.request(given, files or None, pinned=pinned)
     outputs = OutputFiles(graph, asked.targets, evaluator)
     outputs.check(files)
-    check_kept(files.values(), [*given.values(), *(pinned or {}).values()])
+    results = [(f"output {name!r}", path) for name, path in files.items()]
+    results += [(follower.what, follower.path) for follower in followers if follower.path is not None]
+    check_apart(results)
+    check_kept((path for _, path in results), [*given.values(), *(pinned or {}).values()])
     with ProgressBar(silent=quiet) as bar, written(followers):
         watching: list[Observer] = [bar, *followers, *observers, *outputs.observers(files)]
         if evaluator.disk is not None:

@@ -33,8 +33,8 @@ from graphface.document.references import MAX_NESTING, References, Scope, Target
 from graphface.errors import DocumentError, Problem, nearest_names
 from graphface.place import Place
 
-MAX_NODES = 2_000_000
-"""Graphs in graphs multiply what their files say."""
+MAX_NODES = 200_000
+"""Graphs in graphs multiply what their files say: nine files of ten nodes each would make 10^9."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,9 @@ class _Composer:
                     prefix + name, node.place, node.use, {}, node.settings, node.carried
                 )
             if self._count > MAX_NODES:
-                raise DocumentError([Problem(f"more than {MAX_NODES:,} nodes", node.place)])
+                raise DocumentError(
+                    [Problem(f"more than {MAX_NODES:,} nodes; graphs used in graphs multiply", node.place)]
+                )
         scope.document = copy.copy(document)
         scope.document.nodes = nodes
         return scope

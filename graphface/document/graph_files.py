@@ -11,6 +11,7 @@ from pathlib import Path
 
 from graphface.document.document import Document, read_document
 from graphface.errors import DocumentError, Problem, UnreadableFile, did_you_mean, nearest_names
+from graphface.fallback import warn
 from graphface.place import Place
 
 GRAPH_SUFFIXES = (".yaml", ".yml")
@@ -19,16 +20,21 @@ GRAPH_SUFFIXES = (".yaml", ".yml")
 def find_graph(name: str, shipped: Sequence[Path]) -> Path:
     """The file of a graph given on the command line: a path, or the name of a shipped graph ("relight").
 
+    A bare name means the shipped graph, also where a file here is called like it: that is warned of.
+
     Raises:
         UnreadableFile: neither exists; the message lists the shipped ones.
     """
     path = Path(name)
-    if _is_file(path):
+    here = _is_file(path)
+    candidates = (c for d in shipped for c in (d / name, *(d / f"{name}{s}" for s in GRAPH_SUFFIXES)))
+    ours = next((candidate for candidate in candidates if _is_file(candidate)), None)
+    if ours is not None and (not here or name == path.stem):
+        if here:
+            warn(f"{name!r} is the shipped graph; the file of that name in this folder is ./{name}")
+        return ours
+    if here:
         return path
-    for folder in shipped:
-        for candidate in (folder / name, *(folder / f"{name}{s}" for s in GRAPH_SUFFIXES)):
-            if _is_file(candidate):
-                return candidate
     known = shipped_graphs(shipped)
     hint = f" (shipped graphs: {', '.join(known)})" if known else ""
     near = did_you_mean(nearest_names(path.stem, known))

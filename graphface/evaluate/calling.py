@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from graphface import fallback
 from graphface.code_line import declaration_line, own_line
-from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError
+from graphface.errors import GraphfaceError, InputError, NodeError, NonFiniteError, out_of_memory
 from graphface.evaluate.observe import Hooks
 from graphface.graph.demand import take
 from graphface.graph.keys import Declined
@@ -67,6 +67,8 @@ class Caller:
             for hook in self._on_start:
                 hook(self._graph.names[slot], step)
             value = self._load(slot) if step is None else self._call(step, declined)
+        except MemoryError as caught:  # while what a node returned was looked at
+            error = self.error(step, caught, {}) if step is not None else caught
         except BaseException as caught:
             error = caught
         seconds = time.perf_counter() - start
@@ -103,7 +105,7 @@ class Caller:
         except GraphfaceError:
             raise
         except Exception as error:
-            raise InputError(name, f"{bound.origin} cannot be read: {type(error).__name__}: {error}") from error
+            raise InputError(name, f"{bound.origin} cannot be read: {reason_of(error)}") from error
 
     def _call(self, step: Step, declined: Declined | None) -> Any:
         if step.plain is not None:
@@ -153,4 +155,6 @@ class Caller:
 
 def reason_of(error: Exception) -> str:
     """What a failed node says: the sentence of an error that speaks to the user, else the kind of the error too."""
+    if isinstance(error, MemoryError) or "Insufficient memory" in str(error):  # what OpenCV says of it
+        return out_of_memory(error)
     return str(error) if isinstance(error, GraphfaceError) else f"{type(error).__name__}: {error}"

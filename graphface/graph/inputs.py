@@ -23,6 +23,7 @@ from graphface.document.scalars import scalar
 from graphface.errors import DocumentError, InputError, UnreadableFile, nearest_names
 from graphface.graph.structure import GraphInput
 from graphface.values.digest import digest_file, digest_value
+from graphface.values.entering import entered
 from graphface.values.files import FilesOf, Reader
 from graphface.values.frozen import buffer_of, freeze, with_arrays
 from graphface.values.parts import SCALARS
@@ -146,7 +147,10 @@ def _bind_file(entry: GraphInput, path: Path, reader: Reader, stat_shortcut: boo
         value = reader(path)
         if digest_file(path, stat_shortcut=stat_shortcut) != content:
             raise UnreadableFile(path, f"was changed while it was in use (input {entry.name!r}); run again")
-        return value
+        try:
+            return entered(value, entry.type)
+        except ValueError as error:
+            raise UnreadableFile(path, f"holds no {entry.type} that can be used: {error}") from None
 
     return Bound(entry.name, digest, str(path), load, is_file=True)
 
@@ -163,7 +167,7 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
 
     def load() -> Any:
         try:
-            return declared.coerce(own)
+            return _fitting(own, declared)
         except DocumentError as error:
             if all(problem.place is not None for problem in error.problems):
                 raise
@@ -173,6 +177,13 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
 
     number = value if type(value) in SCALARS else _NONE
     return Bound(entry.name, digest, type(value).__name__, load, number=number)
+
+
+def _fitting(value: Any, declared: PortType) -> Any:
+    """A value as its type takes it; an array is converted first, since its dtype may be all that does not fit."""
+    if isinstance(value, np.ndarray) and any(isinstance(atom, ArrayType) for atom in declared.alternatives):
+        return entered(value, declared)
+    return entered(declared.coerce(value), declared)
 
 
 def _own(array: np.ndarray) -> np.ndarray:

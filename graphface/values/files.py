@@ -31,12 +31,15 @@ class Files:
         suffixes: what `write` knows, such as (".png", ".jpg"): another is refused before anything runs. Without any,
             `write` is asked when the value is there.
         text: from a path to the words kept inside the file.
+        check: from a path, before anything runs: raises UsageError where `write` could not write it here, because a
+            package is missing, say.
     """
 
     read: Reader | None = None
     write: Callable[..., None] | None = None
     suffixes: tuple[str, ...] = ()
     text: Callable[[Path], dict[str, str]] | None = None
+    check: Callable[[Path], None] | None = None
 
 
 FilesOf = Callable[[Atom | PortType], Files | None]

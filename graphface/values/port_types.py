@@ -47,6 +47,8 @@ class ArrayType:
         shape: one word per axis: a number, or a letter for a free axis ("H W 3"); "..." allows any shape.
         kind: NumPy dtype kinds allowed, as in `dtype.kind` ("f" floating, "i" integer, "b" boolean).
         low, high: the nominal range, for messages and pictures; values are not clipped.
+        dtype: what arrays that enter a run from outside are converted to ("float32"); None leaves them.
+        bounded: whether such arrays are refused where they leave the range; bool and unsigned are shares of 1.
         parent: the type that this one may stand in for.
     """
 
@@ -57,6 +59,8 @@ class ArrayType:
     high: float | None = None
     doc: str = ""
     parent: ArrayType | None = None
+    dtype: str | None = None
+    bounded: bool = False
 
     def is_a(self, other: ArrayType) -> bool:
         return self is other or (self.parent is not None and self.parent.is_a(other))

@@ -1,6 +1,7 @@
 """Results to files: by who writes their type (`graphface.values.files`), or as plain arrays.
 
-A file appears whole or not at all: it is written beside its place under another name and then renamed.
+A file appears whole or not at all: it is written beside its place under another name and then renamed. What a symbolic
+link points to is replaced, the link stays. A folder that is missing is made when there is something to put in it.
 """
 
 from __future__ import annotations
@@ -10,13 +11,13 @@ import os
 import secrets
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from graphface.errors import RefusedOutput, UnwritableFile
+from graphface.errors import GraphfaceError, RefusedOutput, UnwritableFile
 from graphface.values.files import Files, FilesOf
 from graphface.values.frozen import arrays_in
 from graphface.values.port_types import ArrayType, Atom, PortType
@@ -36,8 +37,9 @@ def write_output(
         text: words to keep inside the file, where that can be.
 
     Raises:
-        UnwritableFile: the folder is missing or read-only, or the type cannot be written as that.
+        UnwritableFile: the folder is read-only, the type cannot be written as that, or its writer failed.
     """
+    _make_folder_of(path)
     if path.suffix == ".npy" and isinstance(value, np.ndarray):
         _write_with(path, lambda beside: np.save(beside, value, allow_pickle=False))
     elif path.suffix == ".npz":
@@ -55,36 +57,68 @@ def write_output(
                 writer(value, path, text=text)
             else:
                 writer(value, path)
+        except GraphfaceError:
+            raise
         except OSError as error:
             raise UnwritableFile(path, error.strerror or str(error)) from None
+        except Exception as error:
+            raise UnwritableFile(path, f"its writer failed ({type(error).__name__}: {error})") from error
 
 
 def check_folder(path: Path) -> None:
-    """See before anything runs that a result could be written there.
+    """See before anything runs that a result could be written there, its folder made where it is missing.
 
     Raises:
-        RefusedOutput: the folder is missing or read-only, or the path is a folder.
+        RefusedOutput: the path is a folder or no ordinary file, or its folder is read-only or cannot be made.
     """
-    folder = path.parent
     try:
         if path.is_dir():
             raise RefusedOutput(path, "is a folder; name a file in it")
-        if not folder.is_dir():
-            raise RefusedOutput(path, f"there is no folder {str(folder)!r}")
+        place = Path(os.path.realpath(path))
+        if place.exists() and not place.is_file():
+            raise RefusedOutput(path, "is no ordinary file; give the result another name")
+        folder = _nearest_folder(place)
         handle, name = tempfile.mkstemp(prefix=".graphface-", dir=folder)
+    except NotADirectoryError:
+        raise RefusedOutput(path, "cannot be written: a file has the name of one of its folders") from None
     except OSError as error:
         raise RefusedOutput(path, f"cannot be written: {error.strerror}") from None
     os.close(handle)
     os.unlink(name)
 
 
+def _nearest_folder(place: Path) -> Path:
+    """The nearest folder above a path that is there; what is missing below it could be made.
+
+    Raises:
+        OSError: it could not be: a name is too long, or a file has the name of a folder.
+    """
+    missing = [place]
+    while not os.path.lexists(missing[-1].parent):
+        missing.append(missing[-1].parent)
+    folder = missing[-1].parent
+    for one in missing:
+        with suppress(FileNotFoundError):
+            os.lstat(folder / one.name)
+    return folder
+
+
 def check_output(path: Path, declared: PortType, files_of: FilesOf) -> None:
     """As `check_folder`, and that a value of the declared type can be written, or drawn, under that suffix.
 
     Raises:
-        RefusedOutput: the folder is missing or read-only, the path is a folder, or no writer knows the suffix.
+        RefusedOutput: nothing can be written there, or no writer knows the suffix.
+        UsageError: the writer lacks something here, a package, say.
     """
     check_folder(path)
+    for atom in declared.alternatives:
+        files = files_of(atom)
+        if (
+            files is not None
+            and files.check is not None
+            and path.suffix.lower() in (files.suffixes or (path.suffix.lower(),))
+        ):
+            files.check(path)
     known = _own_suffixes(declared, files_of)
     if known is None or path.suffix.lower() in (*known, *PICTURE_SUFFIXES):
         return
@@ -139,15 +173,25 @@ def beside(path: Path) -> Iterator[Path]:
     """A temporary path in the same folder that takes the place of `path` when the block succeeds.
 
     Raises:
-        UnwritableFile: the folder cannot be written to.
+        UnwritableFile: the folder cannot be made or written to.
     """
-    unfinished = path.with_name(f".{path.stem[:100]}-{secrets.token_hex(4)}{path.suffix}")
+    _make_folder_of(path)
+    place = Path(os.path.realpath(path))  # a link is written through; its own suffix says what is written
+    unfinished = place.with_name(f".{path.stem[:100]}-{secrets.token_hex(4)}{path.suffix}")
     try:
         os.close(create(str(unfinished)))
     except OSError as error:
         raise UnwritableFile(path, f"cannot write into the folder: {error.strerror}") from None
-    with replacing(str(path), str(unfinished)):
+    with replacing(str(place), str(unfinished)):
         yield unfinished
+
+
+def _make_folder_of(path: Path) -> None:
+    folder = Path(os.path.realpath(path)).parent
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UnwritableFile(path, f"its folder cannot be made: {error.strerror}") from None
 
 
 def _write_with(path: Path, write: Callable[[Path], None]) -> None:

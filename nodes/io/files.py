@@ -74,6 +74,12 @@ def _write_mesh(mesh: Any, path: Path) -> None:
     write_mesh(mesh, path)
 
 
+def _check_mesh(path: Path) -> None:
+    from graphface.nodes.io.mesh import check_mesh_writer
+
+    check_mesh_writer(path)
+
+
 def _write_textured(textured: Any, path: Path) -> None:
     from graphface.nodes.io.mesh import write_mesh
 
@@ -144,8 +150,8 @@ DETAIL = Files(write=_drawn("signed_bytes"), suffixes=PICTURES)
 ALBEDO = GAIN = Files(write=_drawn("albedo_bytes"), suffixes=PICTURES)
 TEXTURE = Files(write=_write_texture, suffixes=PICTURES)
 LANDMARKS = Files(_read_landmarks, _write_landmarks, (".pts", ".csv", ".npy"))
-MESH = Files(write=_write_mesh, suffixes=MESHES)
-TEXTURED_MESH = Files(write=_write_textured, suffixes=MESHES)
+MESH = Files(write=_write_mesh, suffixes=MESHES, check=_check_mesh)
+TEXTURED_MESH = Files(write=_write_textured, suffixes=MESHES, check=_check_mesh)
 MODEL = Files(_read_model, _write_model, (".safetensors",))
 ENVIRONMENT = Files(_read_environment, _write_environment, (".exr", ".hdr", ".pic", *PICTURES))
 SCENE = Files(_read_scene)

@@ -21,10 +21,9 @@ def write_mesh(mesh: Mesh, path: Path, texture: Texture | None = None) -> None:
         UsageError: trimesh is missing.
         UnwritableFile: another suffix, or the folder refuses.
     """
-    try:
-        import trimesh
-    except ImportError:
-        raise UsageError("writing meshes needs trimesh: pip install 'graphface[models]'") from None
+    check_mesh_writer(path)
+    import trimesh
+
     path = Path(path)
     if path.suffix.lower() not in MESHES:
         raise UnwritableFile(path, f"a mesh is written as {', '.join(MESHES)}")
@@ -41,6 +40,18 @@ def write_mesh(mesh: Mesh, path: Path, texture: Texture | None = None) -> None:
             made.export(path)
     except OSError as error:
         raise UnwritableFile(path, error.strerror or str(error)) from error
+
+
+def check_mesh_writer(path: Path) -> None:
+    """See that meshes can be written here.
+
+    Raises:
+        UsageError: trimesh is missing.
+    """
+    try:
+        import trimesh  # noqa: F401 - a package that is there and broken is found too
+    except ImportError:
+        raise UsageError(f"{path}: writing meshes needs trimesh: pip install 'graphface[models]'") from None
 
 
 def _visual(trimesh: Any, mesh: Mesh, texture: Texture, *, per_vertex: bool) -> Any:

@@ -77,6 +77,10 @@ class MorphableModel:
         if reason is not None:
             raise InvalidModel(self.name, reason)
 
+    def flaw(self) -> str | None:
+        """Why its parts do not agree."""
+        return _problem(self)
+
     def vertices(self, coefficients: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
         """The face (V, 3) of (identity, expression) coefficients; missing ones are zero."""
         directions = self.directions[: len(coefficients)].reshape(len(coefficients), self.mean.size)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from graphface.nodes.types.agreement import mismatch
 from graphface.nodes.types.arrays import Albedo, Detail, FloatArray, Gain, Mask, Shading
 from graphface.nodes.types.geometry import Mesh
 from graphface.nodes.types.image import Image
@@ -22,6 +23,10 @@ class Intrinsic:
 
     albedo: Albedo
     shading: Shading
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, {"albedo": "H W 3", "shading": "H W ..."})
 
 
 @dataclass(frozen=True)
@@ -50,6 +55,10 @@ class DetailMap:
     gain: Gain | None = None
     pivot: Albedo | None = None
     ceiling: FloatArray | None = None
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, dict.fromkeys((field.name for field in fields(self)), "H W 3"))
 
     def paired_with(self, other: DetailMap) -> dict[str, tuple[FloatArray, FloatArray]]:
         """The parts that this map or another one of the same size has, by name; one that is missing is 0 or a factor 1.
@@ -86,3 +95,7 @@ class Texture:
 
     image: Image
     seen: Mask
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, {"image.pixels": "S S 3", "seen": "S S"})

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from graphface.nodes.types.agreement import mismatch
 from graphface.nodes.types.arrays import FloatArray, Mask
 
 
@@ -31,6 +32,11 @@ class Correspondence:
     mirrored: FloatArray | None = None
     mirrored_valid: FloatArray | None = None
 
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        maps = {"inside": "H W", "valid": "H W", "mirrored_valid": "H W"}
+        return mismatch(self, {"places": "H W 2", "mirrored": "H W 2", **maps})
+
     @property
     def known(self) -> Mask:
         """float32 H x W, 0..1: how far the reference shows the point or its mirror image."""
@@ -49,6 +55,10 @@ class Pins:
     """
 
     points: FloatArray
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, {"points": "N 4"})
 
     @classmethod
     def coerce(cls, value: Any) -> Pins:

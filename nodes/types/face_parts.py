@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from graphface.nodes.types.agreement import mismatch
 from graphface.nodes.types.arrays import Mask
 
 
@@ -27,6 +28,10 @@ class Features:
     brows: Mask
     nose: Mask
     cheeks: Mask
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, dict.fromkeys((field.name for field in fields(self)), "H W"))
 
     @property
     def openings(self) -> Mask:
@@ -56,6 +61,10 @@ class HeadMasks:
     normal: Mask
     aggressive: Mask
 
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, dict.fromkeys((field.name for field in fields(self)), "H W"))
+
 
 @dataclass(frozen=True)
 class Segmentation:
@@ -64,6 +73,10 @@ class Segmentation:
     face: Mask
     hair: Mask
     background: Mask
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, dict.fromkeys((field.name for field in fields(self)), "H W"))
 
 
 @dataclass(frozen=True)
@@ -82,6 +95,10 @@ class Regions:
     mouth: Mask
     left_cheek: Mask
     right_cheek: Mask
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, dict.fromkeys((field.name for field in fields(self)), "H W"))
 
 
 REGIONS = tuple(field.name for field in fields(Regions))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.types.agreement import mismatch, out_of_range
 from graphface.nodes.types.arrays import Depth, FloatArray, Mask, Normals
 
 
@@ -25,12 +26,23 @@ class Camera:
     center: tuple[float, float] = (0.0, 0.0)
     nearness: float = 0.0
 
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        numbers = np.array([self.scale, *self.center, self.nearness], np.float64)
+        if numbers.shape != (4,) or not np.isfinite(numbers).all() or self.scale <= 0 or self.nearness < 0:
+            return f"a camera has a scale above 0, a centre and a nearness of 0 or more, this one is {self}"
+        return None
+
     def project(self, vertices: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
         """Camera-frame points (..., 3) to pixel coordinates (..., 2)."""
         factor = self.scale / np.maximum(1 - vertices[..., 2] * self.nearness, 1e-3)
         x = self.center[0] + factor * vertices[..., 0]
         y = self.center[1] - factor * vertices[..., 1]
         return np.stack([x, y], axis=-1)
+
+
+_POINTS = {"facemesh468": 468, "ibug68": 68}
+"""Points of the schemes that operators know."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +60,11 @@ class Landmarks:
     scheme: str
     score: float = 1.0
     faces: int = 1
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        count = _POINTS.get(self.scheme, "N")
+        return mismatch(self, {"points": f"{count} 3"})
 
     @property
     def interocular(self) -> float:
@@ -112,6 +129,31 @@ class Mesh:
     facemesh: NDArray[np.int32] | None = None
     fit: FitRecord | None = None
 
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        if not np.isfinite(self.interocular) or self.interocular < 0:
+            return f"interocular is {self.interocular}, expected a length"
+        count = len(self.vertices)
+        shapes = {
+            "vertices": "V 3",
+            "normals": "V 3",
+            "triangles": "T 3",
+            "uv": "V 2",
+            "mirror": "M",
+            "facemesh": "468",
+        }
+        return (
+            mismatch(self, shapes)
+            or out_of_range("triangles", self.triangles, count)
+            or out_of_range("mirror", self.mirror, count, none=True)
+            or out_of_range("facemesh", self.facemesh, count, none=True)
+            or (
+                "mirror is longer than there are vertices"
+                if self.mirror is not None and len(self.mirror) > count
+                else None
+            )
+        )
+
 
 @dataclass(frozen=True)
 class Surface:
@@ -131,6 +173,11 @@ class Surface:
     triangle: NDArray[np.int32]
     barycentric: FloatArray
 
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        shapes = {"coverage": "H W", "depth": "H W", "triangle": "H W", "normals": "H W 3", "barycentric": "H W 3"}
+        return mismatch(self, shapes) or out_of_range("triangle", self.triangle, 1 << 31, none=True)
+
 
 @dataclass(frozen=True)
 class RefinedSurface:
@@ -143,3 +190,7 @@ class RefinedSurface:
 
     surface: Surface
     shadow: Mask
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        return mismatch(self, {"surface.coverage": "H W", "shadow": "H W"})

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from graphface.nodes.types.agreement import mismatch
 from graphface.nodes.types.arrays import Direction, FloatArray, Shading
 
 
@@ -18,6 +19,12 @@ class Lighting:
     """
 
     coefficients: FloatArray
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        if self.coefficients.ndim not in (1, 2) or self.coefficients.shape[0] not in (1, 4, 9, 16):
+            return f"coefficients have the shape {self.coefficients.shape}, expected (n) or (n, 3), n = 1, 4, 9 or 16"
+        return mismatch(self, {"coefficients": "N 3"}) if self.coefficients.ndim == 2 else None
 
     @property
     def order(self) -> int:
@@ -50,3 +57,9 @@ class Environment:
     """
 
     radiance: FloatArray
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        if self.radiance.size and self.radiance.min() < 0:
+            return "radiance is below 0"
+        return mismatch(self, {"radiance": "H W 3"}) or (None if self.radiance.size else "radiance has no pixels")

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from graphface.nodes.types.arrays import Encoding, FloatArray
+from graphface.nodes.types.agreement import mismatch
+from graphface.nodes.types.arrays import Encoding, FloatArray, Mask
 
 
 @dataclass(frozen=True)
@@ -42,9 +43,15 @@ class Image:
     """
 
     pixels: FloatArray
-    alpha: FloatArray | None = None
+    alpha: Mask | None = None
     encoding: Encoding = "srgb"
     file: FileFormat = FileFormat()
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        if self.encoding not in ("srgb", "linear"):
+            return f"encoding is {self.encoding!r}, expected 'srgb' or 'linear'"
+        return mismatch(self, {"pixels": "H W 3", "alpha": "H W"}) or (None if self.pixels.size else "it has no pixels")
 
     @property
     def height(self) -> int:

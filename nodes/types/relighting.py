@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.types.agreement import mismatch, out_of_range
 from graphface.nodes.types.arrays import Encoding, FloatArray, Mask
 
 
@@ -42,6 +43,19 @@ class Samples:
     coverage: Mask
     encoding: Encoding
 
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        counted = dict.fromkeys(("cells", "pixels", "weights"), "N") | {"before": "N ...", "irradiance": "N ..."}
+        cells, pixels = self.grid[0] * self.grid[1], self.picture[0] * self.picture[1]
+        if self.coverage.shape != tuple(self.picture):
+            return f"coverage has the shape {self.coverage.shape}, the picture is {tuple(self.picture)}"
+        return (
+            mismatch(self, {"normals": "N 3", "points": "N 3", **counted, "rim": "R", "rim_weights": "R"})
+            or out_of_range("cells", self.cells, cells)
+            or out_of_range("rim", self.rim, cells)
+            or out_of_range("pixels", self.pixels, pixels)
+        )
+
 
 @dataclass(frozen=True)
 class Surroundings:
@@ -68,6 +82,25 @@ class Surroundings:
     nearest: NDArray[np.intp]
     far: FloatArray
     sigma: float
+
+    def flaw(self) -> str | None:
+        """Why its parts do not belong together."""
+        height, width = self.weight.shape
+        if self.cell < 1:
+            return f"cell is {self.cell}, expected 1 or more"
+        if not self.nearest.size:
+            return None
+        top, bottom, left, right = self.window
+        blocks = (-(-height // self.cell), -(-width // self.cell))
+        if not (0 <= top < bottom <= blocks[0] and 0 <= left < right <= blocks[1]):
+            return f"window {self.window} is no part of {blocks} blocks"
+        if self.total.shape != (bottom - top, right - left):
+            return f"total has the shape {self.total.shape}, the window {(bottom - top, right - left)}"
+        if self.nearest.shape != blocks:
+            return f"nearest has the shape {self.nearest.shape}, there are {blocks} blocks"
+        return mismatch(self, {"nearest": "H W", "far": "H W"}) or out_of_range(
+            "nearest", self.nearest, self.total.size
+        )
 
 
 @dataclass(frozen=True)

@@ -96,6 +96,12 @@ class TestLookup:
         assert asset_path(SAMPLE) == site / SAMPLE.member
         assert asset_status(SAMPLE).place == "installed"
 
+        def denied(path, **_):
+            raise PermissionError(13, "Permission denied")
+
+        monkeypatch.setattr(Path, "is_file", denied)  # of the cache in a home that may not be entered
+        assert asset_status(SAMPLE).place == "installed"
+
     def test_wrong_file_in_named_folder_is_passed_over(self, cache, no_pip, tmp_path, monkeypatch):
         """A file of the right name and the wrong bytes is warned about, left alone, and not used."""
         mine = tmp_path / "mine"

@@ -38,6 +38,26 @@ class TestFolder:
         with pytest.raises(UsageError, match="not a cache"):
             DiskTier(tmp_path, MIB)
 
+    @pytest.mark.parametrize("text", ["", "Signature: 8a477f", "\0" * 100])
+    def test_a_mark_cut_short(self, tier, text):
+        """A mark that a full disk or a power cut left empty is made again; what was stored is there."""
+        tier.put(KEY, ARRAY, cost_seconds=0)
+        whole = (tier.folder / MARK).read_text()
+        (tier.folder / "history").mkdir()
+        (tier.folder / MARK).write_text(text)
+        again = DiskTier(tier.folder, MIB)
+        assert again.contains(KEY)
+        assert again.put(OTHER, ARRAY, cost_seconds=0)
+        assert (tier.folder / MARK).read_text() == whole
+
+    @pytest.mark.parametrize("text", ["", "Signature: 8a477f597d28d172789f06886806bc55\n# Somebody else's.\n"])
+    def test_refuses_what_others_mark(self, tmp_path, text):
+        """A mark that says nothing beside files that are not ours does not make them ours; nor does another's."""
+        (tmp_path / MARK).write_text(text)
+        (tmp_path / "thesis.tex").write_text("years of work")
+        with pytest.raises(UsageError, match="not a cache"):
+            DiskTier(tmp_path, MIB)
+
     def test_refuses_a_folder_that_may_not_be_looked_into(self, tmp_path, monkeypatch):
         """That the operating system denies it is said, before anything runs."""
 

@@ -123,7 +123,7 @@ class TestMistakes:
             (["{graph}", "nowhere.yaml"], "nowhere.yaml"),
             (["{graph}", "{graph}", "-i", "z=1"], "no side has such an input"),
             (["{graph}", "--golden", "nowhere"], "nowhere"),
-            (["{graph}", "{graph}", "-o", "nowhere/d.html"], "nowhere"),
+            (["{graph}", "{graph}", "-o", "{graph}/d.html"], "cannot be written"),
             (["{graph}", "{graph}", "--tolerance", "1", "--absolute", "1"], "give one of them"),
             (["{graph}", "{graph}", "--guard", "maybe"], "expected off, warn or error"),
         ],

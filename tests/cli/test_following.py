@@ -48,6 +48,7 @@ class TestWritten:
 
 
 def test_trace_folder(tmp_path: Path) -> None:
-    """A trace into no folder is refused before anything runs."""
-    with pytest.raises(UsageError, match="no folder"):
-        TraceFile(tmp_path / "nowhere" / "run.json", peaks=False).check()
+    """A trace that cannot be written is refused before anything runs."""
+    (tmp_path / "file").touch()
+    with pytest.raises(UsageError, match="cannot be written"):
+        TraceFile(tmp_path / "file" / "run.json", peaks=False).check()

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from graphface import Graph, Registry, load
-from graphface.cli.output_names import check_kept, output_files
+from graphface.cli.output_names import check_apart, check_kept, output_files
 from graphface.errors import UsageError
 
 TEXT = "graphface: 1\nname: two\nnodes: {a: {use: toy.number}, b: {use: toy.number}}\noutputs: {first: a, second: b}\n"
@@ -40,6 +40,15 @@ class TestOutputFiles:
         """What cannot be meant is refused in a sentence."""
         with pytest.raises(UsageError, match=said):
             output_files(graph, asked, {})
+
+
+def test_check_apart(tmp_path: Path) -> None:
+    """Two results never share a file, under whatever names."""
+    (tmp_path / "link.png").symlink_to(tmp_path / "a.png")
+    for other in ("a.png", "x/../a.png", "link.png"):
+        with pytest.raises(UsageError, match=r"output 'one' and --trace would be written to this one file"):
+            check_apart([("output 'one'", tmp_path / "a.png"), ("--trace", tmp_path / other)])
+    check_apart([("one", tmp_path / "a.png"), ("two", tmp_path / "b.png")])
 
 
 def test_check_kept(tmp_path: Path) -> None:

@@ -62,7 +62,6 @@ class TestWriting:
 
     def test_name_from_an_input(self, run: Run, tmp_path: Path) -> None:
         """{x} in a file name is an input's name, and cannot lead out of the folder."""
-        (tmp_path / "out").mkdir()
         assert run("-i", "x=3", "-o", tmp_path / "out" / "{x}.npy").code == 0
         assert (tmp_path / "out" / "3.npy").is_file()
 
@@ -74,7 +73,8 @@ class TestRefused:
         ("arguments", "said"),
         [
             ((), "no output"),
-            (("-o", "nowhere/a.npy"), "nowhere"),
+            (("-o", "g.yaml/a.npy"), "a file has the name of one of its folders"),
+            (("-o", "scaled=a.npy", "-o", "s=a.npy"), "would be written to this one file"),
             (("-o", "g.yaml"), "no Grid can be written as '.yaml'"),
             (("-o", "a"), "has no suffix"),
             (("-o", "image="), "NAME=FILE"),

@@ -54,6 +54,12 @@ class TestMapped:
             mapped("same.npy")
         assert not (tmp_path / "same.npy").exists()
 
+    def test_two_outputs_of_one_name(self, graph: Graph, tmp_path: Path) -> None:
+        """Also where it is two outputs of the same run."""
+        (tmp_path / "one.txt").write_text("")
+        with pytest.raises(UsageError, match="would be written to this one file"):
+            run_map(graph, ["y={g}.npy", "a={g}.npy"], {}, [f"g={tmp_path}"], Evaluator(), [])
+
     def test_some_fail(self, registry: Registry, tmp_path: Path) -> None:
         """Where some fail, the error says so at the end."""
         failing = "b: {use: toy.number}, a: {use: toy.fail, in: {a: b}}"

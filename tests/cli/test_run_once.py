@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from graphface import Evaluator, Registry, load
-from graphface.cli.following import Follower
+from graphface.cli.following import Follower, TraceFile
 from graphface.cli.run_once import run_once
 from graphface.errors import UsageError
 
@@ -25,6 +25,16 @@ class TestWithoutOutput:
         graph = load(f"{TEXT}outputs: {outputs}\n", registry=registry)
         with pytest.raises(UsageError, match="no output asked for"):
             run_once(graph, [], {}, Evaluator(), followers, history=None)
+
+
+class TestFiles:
+    def test_one_file_for_two(self, registry: Registry, tmp_path: Path) -> None:
+        """Two outputs of one name are refused before anything runs, and so is what is written beside them."""
+        graph = load(f"{TEXT}outputs: {{y: a}}\n", registry=registry)
+        trace = TraceFile(tmp_path / "a.npy", peaks=False)
+        for output, followers in ((["y=a.npy", "a=./a.npy"], []), ([f"y={tmp_path / 'a.npy'}"], [trace])):
+            with pytest.raises(UsageError, match="would be written to this one file"):
+                run_once(graph, output, {}, Evaluator(), followers, history=None)
 
 
 def test_written(registry: Registry, tmp_path: Path) -> None:

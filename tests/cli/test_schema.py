@@ -27,10 +27,9 @@ class TestSchema:
         assert "scene" in said.err
 
     def test_folder_that_is_not_there(self, graphface: Callable[..., object], tmp_path: Path) -> None:
-        """It is named before anything is made."""
-        said = graphface("schema", "-o", tmp_path / "none" / "s.json")
-        assert said.code != 0
-        assert "none" in said.err
+        """It is made."""
+        assert graphface("schema", "-o", tmp_path / "none" / "s.json").code == 0
+        assert (tmp_path / "none" / "s.json").is_file()
 
 
 @pytest.mark.parametrize("kind", ["graph", "scene"])

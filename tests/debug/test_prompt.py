@@ -136,7 +136,7 @@ class TestMistakes:
             ("show grid a.png more", "say it as"),
             ("show nothing", "there is grid"),
             ("show grid.low a.png", "has no field 'low'"),
-            ("show grid nowhere/a.png", "there is no folder"),
+            ("show grid /dev/null/a.png", "cannot be written"),
             ("show grid a.xyz", ".png"),
             ('save grid "a', "no closing quotation"),
             ("save grid a.xyz", "can be written"),

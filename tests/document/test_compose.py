@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from graphface import DocumentError, Graph
+from graphface.document import compose
 from graphface.errors import Problem
 
 Write = Callable[..., Path]
@@ -145,7 +146,11 @@ outputs: {total: sum}
         for i in range(1, 8):
             write(f"g{i}.yaml", "nodes:\n" + "".join(f"  x{k}: {{use: g{i - 1}.yaml}}\n" for k in range(10)))
         (problem,) = refused(opened, write("g.yaml", "nodes: {x: {use: g7.yaml}}\n"))
-        assert "1,000" in problem.message
+        assert problem.message == "more than 1,000 nodes; graphs used in graphs multiply"
+
+    def test_the_limit_is_soon_reached(self) -> None:
+        """A few seconds and megabytes of somebody else's file, not a minute and a gigabyte."""
+        assert compose.MAX_NODES <= 200_000
 
 
 class TestPrecedence:

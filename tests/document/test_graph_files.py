@@ -7,6 +7,8 @@ import pytest
 from graph_texts import ADD, refused
 
 from graphface import Graph, Registry, UnreadableFile, load
+from graphface.document.graph_files import find_graph
+from graphface.fallback import GraphfaceWarning
 
 Write = Callable[..., Path]
 
@@ -54,6 +56,18 @@ class TestFiles:
         """A graph that is neither a file nor shipped is named."""
         with pytest.raises(UnreadableFile):
             load(name, registry=registry)
+
+    def test_shadowed(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        """A bare name is the shipped graph, with a warning where a file here has it; a path or a suffix is the file."""
+        (tmp_path / "shipped").mkdir()
+        for name in ("relight", "relight.yaml", "shipped/relight.yaml"):
+            (tmp_path / name).touch()
+        monkeypatch.chdir(tmp_path)
+        shipped = [tmp_path / "shipped"]
+        with pytest.warns(GraphfaceWarning, match=r"shipped graph; .* \./relight"):
+            assert find_graph("relight", shipped) == tmp_path / "shipped" / "relight.yaml"
+        for name in ("./relight", "relight.yaml", str(tmp_path / "relight")):
+            assert find_graph(name, shipped) == Path(name)
 
     def test_broken_inner_file(self, write: Write, opened: Callable[..., Graph]) -> None:
         """A problem inside a used file is told with its place in that file."""

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 import toys
 
-from graphface import NodeError, Registry, RunFailed, load
+from graphface import Evaluator, NodeError, Registry, RunFailed, load
+from graphface.evaluate.calling import reason_of
 
 BROKEN = '''
 import json
@@ -95,3 +96,21 @@ class TestCause:
         error, run = failure(registry, "toy.fail")
         assert type(error.__cause__) is ValueError
         assert run.__cause__ is error.__cause__
+
+
+class TestOutOfMemory:
+    def test_looking_at_a_result(self, registry: Registry, monkeypatch: pytest.MonkeyPatch) -> None:
+        """It can happen while a result is looked at too: the node is named, and the user told what to do."""
+
+        def full(*_: object) -> None:
+            raise MemoryError("Unable to allocate 3 GiB")
+
+        monkeypatch.setattr("graphface.evaluate.calling.first_non_finite", full)
+        graph = load("graphface: 1\nnodes: {big: {use: toy.grid}}\noutputs: {y: big}\n", registry=registry)
+        with pytest.raises(RunFailed, match=r"node 'big'.*out of memory \(Unable .*GiB\); a smaller picture"):
+            graph.run(evaluator=Evaluator())
+
+    @pytest.mark.parametrize("error", [MemoryError(), ValueError("(-4:Insufficient memory) Failed to allocate")])
+    def test_reason(self, error: Exception) -> None:
+        """OpenCV's is one as well."""
+        assert reason_of(error).startswith("out of memory")

@@ -152,10 +152,11 @@ class TestFile:
 
     def test_no_folder(self, tmp_path: Path, registry: Registry) -> None:
         """Where it cannot be written, that is an error about the file."""
+        (tmp_path / "file").touch()
         trace = Trace()
         Evaluator().run(load(TEXT, registry=registry).request({"x": 1.0}, ["a"]), [trace])
         with pytest.raises(UnwritableFile):
-            trace.write_to(tmp_path / "nowhere" / "run.json")
+            trace.write_to(tmp_path / "file" / "run.json")
 
 
 PLUGIN = """\

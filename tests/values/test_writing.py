@@ -1,12 +1,13 @@
 """A result file appears whole or not at all."""
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from graphface.errors import RefusedOutput, UnwritableFile
+from graphface.errors import RefusedOutput, UnwritableFile, UsageError
 from graphface.values.files import Files
 from graphface.values.port_types import ANY, ArrayType, PortType
 from graphface.values.writing import (
@@ -66,9 +67,24 @@ class TestWriting:
         assert list(tmp_path.iterdir()) == []
 
     def test_missing_folder(self, tmp_path: Path) -> None:
-        """So is a folder that is not there."""
-        with pytest.raises(UnwritableFile):
+        """A folder that is not there is made."""
+        write_output(np.zeros(1), ANY, tmp_path / "none" / "deep" / "a.npy", FILES.get)
+        assert (tmp_path / "none" / "deep" / "a.npy").is_file()
+
+    def test_no_folder_can_be(self, tmp_path: Path) -> None:
+        """One that a file stands in the way of is an error that names the result."""
+        (tmp_path / "none").touch()
+        with pytest.raises(UnwritableFile, match=r"a\.npy: its folder cannot be made"):
             write_output(np.zeros(1), ANY, tmp_path / "none" / "a.npy", FILES.get)
+
+    def test_any_failure_of_a_writer(self, tmp_path: Path) -> None:
+        """Whatever a writer raises is told with the file."""
+
+        def broken(value: object, path: Path) -> None:
+            raise ZeroDivisionError("oh")
+
+        with pytest.raises(UnwritableFile, match=r"a\.txt: its writer failed \(ZeroDivisionError: oh\)"):
+            write_output(Stubborn(), ANY, tmp_path / "a.txt", {Stubborn: Files(write=broken)}.get)
 
 
 class TestBeside:
@@ -77,6 +93,18 @@ class TestBeside:
         with beside(tmp_path / "a.txt") as path:
             path.write_text("new")
         assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+
+    def test_link(self, tmp_path: Path) -> None:
+        """A symbolic link stays, and what it points to is replaced, in its own folder and also where it is missing."""
+        (tmp_path / "there").mkdir()
+        (tmp_path / "a.txt").symlink_to(tmp_path / "there" / "b")
+        for text in ("one", "two"):
+            with beside(tmp_path / "a.txt") as path:
+                assert (path.parent, path.suffix) == (tmp_path / "there", ".txt")
+                path.write_text(text)
+            assert (tmp_path / "there" / "b").read_text() == text
+        assert (tmp_path / "a.txt").is_symlink()
+        assert [p.name for p in (tmp_path / "there").iterdir()] == ["b"]
 
     @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
     def test_failure(self, tmp_path: Path, error: type[BaseException]) -> None:
@@ -95,11 +123,25 @@ class TestCheckFolder:
         check_folder(tmp_path / "a.png")
         assert list(tmp_path.iterdir()) == []
 
-    @pytest.mark.parametrize("name", ["", "none/a.png", "x" * 300 + ".png", "x" * 300 + "/a.png"])
+    def test_missing(self, tmp_path: Path) -> None:
+        """A folder that can be made is not made before there is something to put in it."""
+        check_folder(tmp_path / "none" / "deep" / "a.png")
+        assert list(tmp_path.iterdir()) == []
+
+    @pytest.mark.parametrize(
+        "name",
+        ["", "x" * 300 + ".png", "x" * 300 + "/a.png", "none/" + "x" * 300 + ".png", "file/a.png", "file/b/a.png"],
+    )
     def test_refused(self, tmp_path: Path, name: str) -> None:
-        """A folder, a missing folder and a name too long are told before anything runs."""
-        with pytest.raises(UnwritableFile):
+        """A folder, a file where a folder should be and a name too long are told before anything runs."""
+        (tmp_path / "file").touch()
+        with pytest.raises(RefusedOutput):
             check_folder(tmp_path / name)
+
+    def test_no_file(self) -> None:
+        """A device is not renamed over."""
+        with pytest.raises(RefusedOutput, match="no ordinary file"):
+            check_folder(Path(os.devnull))
 
 
 class TestCheckOutput:
@@ -119,6 +161,17 @@ class TestCheckOutput:
     def test_fine(self, tmp_path: Path, declared: PortType, name: str) -> None:
         """A suffix that a writer knows, or may know."""
         check_output(tmp_path / name, declared, FILES.get)
+
+    def test_what_the_writer_lacks(self, tmp_path: Path) -> None:
+        """A writer that cannot work here is found now, for the suffixes that it writes and no other."""
+
+        def check(path: Path) -> None:
+            raise UsageError(f"{path}: install it")
+
+        files = {DRAWN: Files(write=lambda value, path: None, suffixes=(".obj",), check=check)}
+        check_output(tmp_path / "a.npy", PortType((DRAWN,)), files.get)
+        with pytest.raises(UsageError, match="install it"):
+            check_output(tmp_path / "a.obj", PortType((DRAWN,)), files.get)
 
     @pytest.mark.parametrize(
         ("declared", "name"),

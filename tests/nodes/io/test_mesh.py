@@ -10,7 +10,10 @@ import pytest
 from graphface import UnwritableFile, UsageError
 from graphface.nodes.io.files import MESHES
 from graphface.nodes.io.mesh import write_mesh
-from graphface.nodes.types import Camera, Image, Mesh, Texture
+from graphface.nodes.types import Camera, Image, Mesh, Texture, TexturedMesh
+from graphface.registry import default_registry
+from graphface.values.port_types import PortType
+from graphface.values.writing import check_output
 
 trimesh = pytest.importorskip("trimesh")
 MESH = Mesh(
@@ -56,3 +59,11 @@ class TestWriteMesh:
         monkeypatch.setitem(sys.modules, "trimesh", None)
         with pytest.raises(UsageError, match=r"graphface\[models\]"):
             write_mesh(MESH, tmp_path / "face.obj")
+
+    @pytest.mark.parametrize("kind", [Mesh, TexturedMesh])
+    def test_it_is_missed_before_anything_runs(self, tmp_path, monkeypatch, kind):
+        """Where a mesh is asked for as a file, that is."""
+        monkeypatch.setitem(sys.modules, "trimesh", None)
+        with pytest.raises(UsageError, match=r"face.obj: .*graphface\[models\]"):
+            check_output(tmp_path / "face.obj", PortType((kind,)), default_registry().files)
+        check_output(tmp_path / "face.png", PortType((kind,)), default_registry().files)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from graphface import UnreadableFile
+from graphface import UnreadableFile, load
 from graphface.nodes.detail.split import split as split_detail
 from graphface.nodes.intrinsic.intensity import intensity
 from graphface.nodes.io.representation import read_representation, write_representation
@@ -16,6 +16,12 @@ from graphface.nodes.representation.bundle import bundle
 from graphface.nodes.sh.render import render as render_light
 from graphface.nodes.types import Camera, Image, Landmarks, Lighting, Mesh, Segmentation, Surface
 from graphface.values.digest import digest_value
+
+GRAPH = """graphface: 1
+inputs: {saved: Representation}
+nodes: {s: {use: surface.rasterize, in: {mesh: saved.mesh, photo: saved.working}}}
+outputs: {s: s}
+"""
 
 
 @pytest.fixture
@@ -83,3 +89,35 @@ class TestRepresentation:
         save_file({"a": np.zeros(3)}, tmp_path / "other.face")
         with pytest.raises(UnreadableFile, match="representation"):
             read_representation(tmp_path / "other.face")
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        (lambda r: replace(r, mesh=replace(r.mesh, triangles=np.int32([[0, 1, 3]]))), "mesh: triangles has indices"),
+        (lambda r: replace(r, mesh=replace(r.mesh, triangles=np.int32([[0, 1, 1 << 30]]))), "mesh: triangles"),
+        (lambda r: replace(r, mesh=replace(r.mesh, triangles=r.mesh.triangles * 1.0)), "expected int32"),
+        (lambda r: replace(r, surface=replace(r.surface, triangle=r.surface.triangle + 1)), "surface.triangle"),
+        (lambda r: replace(r, head=replace(r.head, vertices=r.head.vertices[:2])), "head: "),
+        (lambda r: replace(r, mask=r.mask[:5]), "mask has the shape"),
+        (lambda r: replace(r, mask=r.mask * 2), "mask: a Mask lies within 0 and 1"),
+        (lambda r: replace(r, albedo=r.albedo * np.nan), "albedo: has values that are not numbers"),
+        (lambda r: replace(r, landmarks=replace(r.landmarks, points=r.landmarks.points[:5])), "landmarks: points"),
+        (lambda r: replace(r, surroundings=replace(r.surroundings, nearest=r.surroundings.nearest + 99)), "nearest"),
+    ],
+)
+def test_parts_that_do_not_belong_together(representation, tmp_path, changed, said):
+    """A file that somebody edited is an error that names file and part, and never reaches an operator."""
+    path = tmp_path / "a.face"
+    write_representation(changed(representation), path)
+    graph = load(GRAPH)
+    with pytest.raises(UnreadableFile, match=said) as caught:
+        graph.run(saved=path)
+    assert str(path) in str(caught.value)
+
+
+def test_as_written_it_enters(representation, tmp_path):
+    """What a run wrote enters another."""
+    write_representation(representation, tmp_path / "a.face")
+    graph = load(GRAPH)
+    assert graph.run(saved=tmp_path / "a.face").outputs["s"].coverage.shape == (12, 10)
