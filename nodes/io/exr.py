@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphface import UnreadableFile, UnwritableFile
+from graphface.nodes.io.picture_size import check_size
 from graphface.nodes.types import FloatArray
 
 _MAGIC = b"\x76\x2f\x31\x01"
@@ -29,7 +30,8 @@ _LINES = {0: 1, 1: 1, 2: 1, 3: 16}
 _DTYPES: dict[int, np.dtype[Any]] = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 
 
-_LARGEST = 1 << 28
+_FURTHER = 36
+"""Bytes a pixel beside the channels: the joined picture, what is finite in it, and a block while it is expanded."""
 
 
 @dataclass(frozen=True)
@@ -112,9 +114,11 @@ def _header(data: bytes, path: Path) -> _Header:
     if compression not in _LINES:
         raise UnreadableFile(path, f"OpenEXR compression {compression} is not read; save it with ZIP or none")
     width, height = right - left + 1, bottom - top + 1
-    if width < 1 or height < 1 or width * height > _LARGEST:
+    if width < 1 or height < 1:
         raise ValueError(f"a window of {width} x {height} pixels")
-    return _Header(_channels(found["channels"]), compression, left, top, width, height, position + 1)
+    channels = _channels(found["channels"])
+    check_size(path, width, height, 4 * len(channels) + _FURTHER)
+    return _Header(channels, compression, left, top, width, height, position + 1)
 
 
 def _channels(listed: bytes) -> list[tuple[str, np.dtype[Any]]]:
@@ -158,7 +162,8 @@ def _expanded(block: bytes, whole: int, compression: int) -> bytes:
         return block
     raw = _run_lengths(block) if compression == 1 else zlib.decompressobj().decompress(block, whole)
     coded: NDArray[np.uint8] = np.frombuffer(raw, np.uint8, whole)
-    summed = (np.cumsum(coded, dtype=np.int64) - 128 * np.arange(whole)).astype(np.uint8)
+    summed = np.cumsum(coded, dtype=np.uint8)  # modulo 256, as the differences are: each is stored plus 128
+    summed[1::2] += 128
     half = (whole + 1) // 2
     joined = np.empty(whole, np.uint8)
     joined[0::2], joined[1::2] = summed[:half], summed[half:]

@@ -1,7 +1,8 @@
 """Picture files to images: 8- and 16-bit PNG, JPEG, WebP and TIFF.
 
-The header is read first and alone, by Pillow: a file that claims more pixels than GRAPHFACE_MAX_PIXELS is refused
-before anything is allocated. Pillow then decodes 8-bit files; it silently halves 16-bit color, which OpenCV decodes.
+The header is read first and alone, by Pillow: a file that claims more pixels, or would take more memory, than is
+allowed (`picture_size`) is refused before anything is allocated. Pillow then decodes 8-bit files; it silently halves
+16-bit color, which OpenCV decodes.
 
 Pixels are taken as sRGB. An embedded profile is kept beside them and attached again on saving, so a picture in another
 RGB space comes back in it; only the light estimated in between is off by the difference of the spaces.
@@ -9,7 +10,7 @@ RGB space comes back in it; only the light estimated in between is off by the di
 
 from __future__ import annotations
 
-import os
+import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,22 +21,19 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 from PIL import ExifTags, ImageFile, JpegImagePlugin, PngImagePlugin, TiffImagePlugin, WebPImagePlugin
-from PIL.Image import Exif
+from PIL.Image import DecompressionBombError, Exif
 
 from graphface import UnreadableFile, warn
+from graphface.nodes.io.picture_size import check_size
 from graphface.nodes.types import FileFormat, FloatArray, Image
-
-LIMIT_VARIABLE = "GRAPHFACE_MAX_PIXELS"
-
-
-DEFAULT_LIMIT = 200_000_000
-"""Pixels. As float32 RGB this many take 2.4 GB."""
-
 
 ORIENTATION = 274
 
 
 BITS_PER_SAMPLE = 258
+
+
+SAMPLES = 277
 
 
 ICC_PROFILE = 34675
@@ -45,7 +43,18 @@ _KEPT_TIFF_TAGS = (270, 271, 272, 305, 306, 315, 33432)
 """Description, make, model, software, time, artist, copyright: the tags of a TIFF that are kept as its EXIF."""
 
 
-_DAMAGE = (OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, TypeError, OverflowError, cv2.error)
+_DAMAGE = (
+    OSError,
+    ValueError,
+    SyntaxError,
+    EOFError,
+    KeyError,
+    IndexError,
+    TypeError,
+    OverflowError,
+    cv2.error,
+    struct.error,
+)
 """What Pillow and OpenCV raise on damaged files, depending on where the damage is."""
 
 
@@ -69,12 +78,12 @@ def read_image(path: Path) -> Image:
     warning. ICC profile and EXIF are kept in `Image.file`, without the thumbnail: it would show the unedited photo.
 
     Raises:
-        UnreadableFile: missing, no picture, damaged, of a format that is not read, larger than GRAPHFACE_MAX_PIXELS, or
+        UnreadableFile: missing, no picture, damaged, of a format that is not read, too large (`picture_size`), or
             with values that are not numbers.
     """
     path = Path(path)
     with open_picture(path) as picture:
-        _check_size(path, picture)
+        check_size(path, picture.width, picture.height, _bytes_per_pixel(picture))
         frames = int(getattr(picture.image, "n_frames", 1))
         if frames > 1:
             warn(f"{path} has {frames} pictures: the first is taken")
@@ -108,6 +117,8 @@ def open_picture(path: Path) -> Iterator[Picture]:
         raise UnreadableFile(path, "is a folder, not a picture") from error
     except PermissionError as error:
         raise UnreadableFile(path, "may not be read (permission denied)") from error
+    except DecompressionBombError as error:
+        raise UnreadableFile(path, f"claims more pixels than can be read ({_first_line(error)})") from None
     except _DAMAGE as error:
         raise UnreadableFile(path, f"damaged or cut off ({_first_line(error)})") from error
 
@@ -149,24 +160,13 @@ def _open_tiff(file: Any) -> Picture:
     return Picture("TIFF", image, tags, int(tags[256]), int(tags[257]), int(bits))
 
 
-def _check_size(path: Path, picture: Picture) -> None:
-    limit = pixel_limit()
-    if picture.width * picture.height > limit:
-        raise UnreadableFile(
-            path,
-            f"claims {picture.width} x {picture.height} pixels, more than {limit / 1e6:.0f} million; "
-            f"set {LIMIT_VARIABLE} to allow it",
-        )
-
-
-def pixel_limit() -> int:
-    """The most pixels a picture may have: $GRAPHFACE_MAX_PIXELS, or 200 million."""
-    text = os.environ.get(LIMIT_VARIABLE, "")
-    try:
-        return max(1, int(float(text))) if text else DEFAULT_LIMIT
-    except (ValueError, OverflowError):
-        warn(f"{LIMIT_VARIABLE}={text!r} is not a number: {DEFAULT_LIMIT} is used")
-        return DEFAULT_LIMIT
+def _bytes_per_pixel(picture: Picture) -> float:
+    """What reading takes: samples as decoded and in order, then float32, once more where they are split from alpha."""
+    channels = len(picture.image.getbands()) if picture.image is not None else int(picture.tags.get(SAMPLES, 3))
+    palette = picture.image is not None and picture.image.mode == "P"
+    alpha = channels in (2, 4) or (picture.image is not None and "transparency" in picture.image.info)
+    channels = 4 if palette and alpha else max(channels, 3)
+    return channels * (2 * max(picture.bits, 8) / 8 + 4) + (16 if alpha else 1)
 
 
 def _exif(path: Path, picture: Picture) -> tuple[int, bytes | None]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +12,14 @@ from graphface.nodes.color import decode_srgb, encode_srgb
 from graphface.nodes.io.exr import read_exr, write_exr
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_picture
+from graphface.nodes.io.picture_size import check_size
 from graphface.nodes.types import Environment, FloatArray
 from graphface.pictures.colors import as_bytes
 
 _HDR = (".hdr", ".pic")
+
+_RESOLUTION = re.compile(rb"\n[-+][XY] +(\d{1,9}) +[-+][XY] +(\d{1,9})\n")
+"""The line of a Radiance header that has the size."""
 
 
 def read_panorama(path: Path) -> Environment:
@@ -27,7 +32,8 @@ def read_panorama(path: Path) -> Environment:
     good = np.isfinite(radiance)
     if not good.any():
         raise UnreadableFile(path, "holds no finite radiance")
-    return Environment(np.where(good, np.maximum(radiance, 0), 0).astype(np.float32))
+    np.copyto(radiance, 0, where=~good)
+    return Environment(np.maximum(radiance, 0, out=radiance))
 
 
 def write_panorama(environment: Environment, path: Path) -> None:
@@ -54,8 +60,15 @@ def _read(path: Path) -> FloatArray:
     if path.suffix.lower() in _HDR:
         import cv2
 
-        blob = np.frombuffer(path.read_bytes(), np.uint8)
-        pixels = cv2.imdecode(blob, cv2.IMREAD_UNCHANGED) if len(blob) else None
+        content = path.read_bytes()
+        size = _RESOLUTION.search(content[:65536])
+        if size is None:
+            raise UnreadableFile(path, "not a Radiance HDR picture")
+        check_size(path, int(size[2]), int(size[1]), 30)
+        try:
+            pixels = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+        except cv2.error as error:
+            raise UnreadableFile(path, f"damaged Radiance HDR picture ({error.err})") from None
         if pixels is None or pixels.ndim != 3:
             raise UnreadableFile(path, "not a Radiance HDR picture")
         return np.ascontiguousarray(pixels[..., 2::-1], dtype=np.float32)

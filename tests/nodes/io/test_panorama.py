@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,8 @@ from graphface.nodes.io.exr import write_exr
 from graphface.nodes.io.image_write import write_picture
 from graphface.nodes.io.panorama import read_panorama, write_panorama
 from graphface.nodes.types import Environment
+
+BOMBS = Path(__file__).parents[4] / "shared" / "cases" / "bombs"
 
 
 @pytest.fixture
@@ -42,6 +46,34 @@ class TestEnvironmentFiles:
         (tmp_path / name).write_bytes(b"not a picture")
         with pytest.raises(UnreadableFile, match=name):
             read_panorama(tmp_path / name)
+
+    @pytest.mark.parametrize("name", ["sky.exr", "sky.hdr", "sky.pic", "sky.png"])
+    def test_size_is_limited(self, name, panorama, tmp_path, monkeypatch):
+        """As that of any picture, before anything is decoded."""
+        write_panorama(panorama, tmp_path / name)
+        monkeypatch.setenv("GRAPHFACE_MAX_PIXELS", "100")
+        with pytest.raises(UnreadableFile, match=rf"{name}: claims 18 x 9 pixels"):
+            read_panorama(tmp_path / name)
+
+    def test_damaged_hdr(self, panorama, tmp_path):
+        """A header without pixels is an error of ours."""
+        (tmp_path / "sky.hdr").write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30 +X 30\n\2\2")
+        with pytest.raises(UnreadableFile, match=r"sky\.hdr"):
+            read_panorama(tmp_path / "sky.hdr")
+
+    @pytest.mark.skipif(not BOMBS.is_dir(), reason="needs ../shared/cases")
+    @pytest.mark.parametrize("name", ["bomb.hdr", "bomb.webp"])
+    def test_bombs(self, name):
+        """Files of a few bytes that ask for gigabytes."""
+        with pytest.raises(UnreadableFile, match="pixels"):
+            read_panorama(BOMBS / name)
+
+    @pytest.mark.skipif(not BOMBS.is_dir(), reason="needs ../shared/cases")
+    def test_a_long_line(self, monkeypatch):
+        """One line of 16 million pixels takes no more than it says."""
+        monkeypatch.setenv("GRAPHFACE_MAX_PICTURE_MEMORY", "500M")
+        with pytest.raises(UnreadableFile, match="GB of memory"):
+            read_panorama(BOMBS / "bomb.exr")
 
     def test_any_picture_is_decoded(self, tmp_path):
         """An 8-bit picture has radiance in 0..1, linear."""
