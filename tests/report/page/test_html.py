@@ -60,6 +60,6 @@ def test_embedded(text: str) -> None:
 def test_check(tmp_path: Path) -> None:
     """A report that could not be written is refused before anything runs."""
     check_report(tmp_path / "run.html")
-    for path in (tmp_path / "run.txt", tmp_path / "absent" / "run.html", tmp_path):
+    for path in (tmp_path / "run.txt", tmp_path / ("x" * 300) / "run.html", tmp_path):
         with pytest.raises(UsageError):
             check_report(path)
