@@ -60,7 +60,8 @@ class Caller:
 
         Raises nothing: a worker that ended silently would leave the run waiting.
         """
-        value, error = None, None
+        value: Any = None
+        error: BaseException | None = None
         cpu = time.thread_time() if self._observed else 0.0
         start = time.perf_counter()
         try:

@@ -157,6 +157,8 @@ def _bind_file(entry: GraphInput, path: Path, reader: Reader, stat_shortcut: boo
 
 def _bind_object(entry: GraphInput, value: Any) -> Bound:
     declared = entry.type
+    if hasattr(type(value), "__array_interface__") and not isinstance(value, np.ndarray | np.generic):
+        value = _of_others(entry.name, value, declared)
     if value is not None and declared.problem(value) is not None and not _coercible(declared):
         raise InputError(entry.name, declared.problem(value) or "")
     try:
@@ -177,6 +179,16 @@ def _bind_object(entry: GraphInput, value: Any) -> Bound:
 
     number = value if type(value) in SCALARS else _NONE
     return Bound(entry.name, digest, type(value).__name__, load, number=number)
+
+
+def _of_others(name: str, value: Any, declared: PortType) -> Any:
+    """What another library holds an array in (Pillow a picture), as a value with a digest."""
+    try:
+        if any(isinstance(atom, ArrayType) for atom in declared.alternatives):
+            return np.array(value)
+        return declared.coerce(value)
+    except (ValueError, TypeError) as error:
+        raise InputError(name, str(error)) from None
 
 
 def _fitting(value: Any, declared: PortType) -> Any:

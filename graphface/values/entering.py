@@ -7,7 +7,8 @@ What nodes hand to each other is trusted. A type says what its values have to be
 - a dataclass by the annotations of its fields, and by a method `flaw()` that returns a sentence, or None where its
   parts belong together (shapes, ranges of indices).
 
-Arrays are brought to the byte order of the machine; NaN and infinity are refused in arrays whose dtype is declared.
+Arrays of declared types are brought to the byte order of the machine; NaN and infinity are refused where a dtype is
+declared. An array of which nothing is declared (a port of `Any`) stays as it is.
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ def _array(array: Any, annotation: Any, where: str) -> Any:
         dtype = _declared_dtype(choice)
         if dtype is not None:
             return _finite(_converted(array, dtype, where), where)
-    return _native(array)
+    return array
 
 
 def _array_of_type(array: Any, atom: ArrayType, where: str) -> Any:

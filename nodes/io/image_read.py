@@ -11,6 +11,7 @@ RGB space comes back in it; only the light estimated in between is off by the di
 from __future__ import annotations
 
 import struct
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -24,6 +25,7 @@ from PIL import ExifTags, ImageFile, JpegImagePlugin, PngImagePlugin, TiffImageP
 from PIL.Image import DecompressionBombError, Exif
 
 from graphface import UnreadableFile, warn
+from graphface.nodes.io import tiff
 from graphface.nodes.io.picture_size import check_size
 from graphface.nodes.types import FileFormat, FloatArray, Image
 
@@ -31,9 +33,6 @@ ORIENTATION = 274
 
 
 BITS_PER_SAMPLE = 258
-
-
-SAMPLES = 277
 
 
 ICC_PROFILE = 34675
@@ -53,6 +52,7 @@ _DAMAGE = (
     TypeError,
     OverflowError,
     cv2.error,
+    zlib.error,
     struct.error,
 )
 """What Pillow and OpenCV raise on damaged files, depending on where the damage is."""
@@ -133,10 +133,12 @@ def _open(path: Path, file: Any) -> Picture:
         return _plain("JPEG", JpegImagePlugin.JpegImageFile(file))
     if start.startswith(b"RIFF") and start[8:12] == b"WEBP":
         return _plain("WEBP", WebPImagePlugin.WebPImageFile(file))
-    if start[:4] in (b"II*\0", b"MM\0*"):
+    if start[:4] in (b"II*\0", b"MM\0*", b"II+\0"):
         return _open_tiff(file)
     if not start:
         raise UnreadableFile(path, "is empty")
+    if start[:4] == b"MM\0+":  # Pillow takes its tags for others
+        raise UnreadableFile(path, "is a big-endian BigTIFF, which is not read; save it as an ordinary TIFF")
     raise UnreadableFile(path, "is not a PNG, JPEG, WebP or TIFF picture")
 
 
@@ -145,7 +147,10 @@ def _plain(name: str, image: Any) -> Picture:
 
 
 def _open_tiff(file: Any) -> Picture:
-    directory = TiffImagePlugin.ImageFileDirectory_v2(file.read(8))
+    header = file.read(8)
+    if 43 in header[2:4]:  # BigTIFF
+        header += file.read(8)
+    directory = TiffImagePlugin.ImageFileDirectory_v2(header)
     file.seek(directory.next)
     directory.load(file)
     tags = dict(directory)
@@ -162,28 +167,28 @@ def _open_tiff(file: Any) -> Picture:
 
 def _bytes_per_pixel(picture: Picture) -> float:
     """What reading takes: samples as decoded and in order, then float32, once more where they are split from alpha."""
-    channels = len(picture.image.getbands()) if picture.image is not None else int(picture.tags.get(SAMPLES, 3))
+    channels = len(picture.image.getbands()) if picture.image is not None else 3
     palette = picture.image is not None and picture.image.mode == "P"
     alpha = channels in (2, 4) or (picture.image is not None and "transparency" in picture.image.info)
-    channels = 4 if palette and alpha else max(channels, 3)
+    channels = 4 if palette and alpha else max(channels, 3, int(picture.tags.get(tiff.SAMPLES, 1)))
     return channels * (2 * max(picture.bits, 8) / 8 + 4) + (16 if alpha else 1)
 
 
 def _exif(path: Path, picture: Picture) -> tuple[int, bytes | None]:
     """The orientation (1..8), and the EXIF block without it and without the thumbnail."""
-    if picture.format == "TIFF":
-        exif = _exif_of_tiff(picture)
-    else:
-        exif = Exif()
-        exif.load(picture.image.info.get("exif") or b"")
-        exif.get_ifd(ExifTags.IFD.Exif)  # read now, so that damage shows here
-        exif.get_ifd(ExifTags.IFD.GPSInfo)
-    orientation = exif.pop(ORIENTATION, 1)
+    exif, orientation, block = Exif(), 1, None
     try:
+        if picture.format == "TIFF":
+            exif = _exif_of_tiff(picture)
+        else:
+            exif.load(picture.image.info.get("exif") or b"")
+        orientation = exif.pop(ORIENTATION, 1)
+        if picture.format != "TIFF":
+            exif.get_ifd(ExifTags.IFD.Exif)  # read now, so that damage shows here
+            exif.get_ifd(ExifTags.IFD.GPSInfo)
         block = exif.tobytes() if len(exif) else None
-    except Exception as error:  # Pillow writes what it could read, but not every damaged tag
+    except Exception as error:  # whatever Pillow raises: the pixels are good
         warn(f"{path}: its EXIF is damaged and dropped ({_first_line(error)})")
-        block = None
     return (orientation if orientation in range(1, 9) else 1), block
 
 
@@ -203,6 +208,10 @@ def _exif_of_tiff(picture: Picture) -> Any:
 
 def _decode(path: Path, picture: Picture, icc: bytes | None) -> tuple[FloatArray, bool, bytes | None]:
     """Samples float32 (H, W, 1..4), whether they are grey, and the profile that fits them."""
+    if picture.format == "TIFF":
+        samples = _decode_tiff(path, picture)
+        if samples is not None:
+            return samples, samples.shape[2] <= 2, icc
     if picture.bits > 8 or picture.image is None:
         samples = _decode_deep(path, picture)
         return samples, samples.shape[2] <= 2, icc
@@ -215,6 +224,28 @@ def _decode(path: Path, picture: Picture, icc: bytes | None) -> tuple[FloatArray
     mode = {(True, False): "L", (True, True): "LA", (False, False): "RGB", (False, True): "RGBA"}[grey, has_alpha]
     samples = np.asarray(image if image.mode == mode else image.convert(mode))
     return _unit(samples), grey, icc
+
+
+def _decode_tiff(path: Path, picture: Picture) -> FloatArray | None:
+    """Samples of a TIFF whose layout is read here, or by OpenCV; None of those that Pillow reads, refused otherwise."""
+    tags = picture.tags
+    if tiff.can_be_read(tags):
+        return tiff.with_alpha(_finite(path, tiff.read_samples(path.read_bytes(), tags)), tags)
+    deep = picture.bits > 8 or picture.image is None
+    further = picture.tags.get(tiff.SAMPLES, 1) > tiff.colors(tags)
+    odd = tiff.is_signed(tags) or (deep and (tiff.colors(tags) == 4 or picture.bits not in (16, 32, 64)))
+    if odd or (tiff.is_planar(tags) and (deep or further)):
+        raise UnreadableFile(path, f"this kind of TIFF ({_layout(picture)}) is not read; save it as RGB, deflated")
+    return tiff.with_alpha(_decode_deep(path, picture), tags) if deep else None
+
+
+def _layout(picture: Picture) -> str:
+    """What a TIFF is like, for a message."""
+    tags = picture.tags
+    return (
+        f"{tags.get(tiff.SAMPLES, 1)} samples of {picture.bits} bits{' in planes' if tiff.is_planar(tags) else ''}, "
+        f"format {tags.get(tiff.FORMAT, 1)}, compression {tags.get(tiff.COMPRESSION, 1)}"
+    )
 
 
 def _cmyk_to_srgb(path: Path, image: Any, icc: bytes | None) -> NDArray[np.uint8]:
@@ -242,9 +273,15 @@ def _decode_deep(path: Path, picture: Picture) -> FloatArray:
     samples = samples if samples.ndim == 3 else samples[..., None]
     if samples.shape[2] >= 3:
         samples = samples[..., [2, 1, 0, 3][: samples.shape[2]]]
-    if not np.isfinite(samples).all():
+    return _finite(path, samples)
+
+
+def _finite(path: Path, samples: NDArray[Any]) -> FloatArray:
+    """Samples by `_unit`, refused where some are no numbers."""
+    unit = _unit(samples)
+    if samples.dtype.kind == "f" and not np.isfinite(unit).all():
         raise UnreadableFile(path, "has pixels that are not numbers (NaN or infinite)")
-    return _unit(samples)
+    return unit
 
 
 def _unit(samples: NDArray[Any]) -> FloatArray:
@@ -259,6 +296,8 @@ def _unit(samples: NDArray[Any]) -> FloatArray:
 def _already_upright(picture: Picture) -> bool:
     """Whether the decoder of a TIFF has applied the orientation: OpenCV always does, newer versions of Pillow do and
     drop the tag. For other formats no decoder does."""
+    if tiff.can_be_read(picture.tags):
+        return False
     return picture.bits > 8 or picture.image is None or ORIENTATION not in picture.image.getexif()
 
 

@@ -7,6 +7,7 @@ strip after a directory that Pillow encodes.
 
 from __future__ import annotations
 
+import os
 import secrets
 import struct
 import zlib
@@ -112,9 +113,10 @@ def replace_file(path: Path, write: Callable[[Path], None]) -> None:
     Raises:
         UnwritableFile: the operating system refuses, and why.
     """
-    beside = path.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}.part")
+    place = Path(os.path.realpath(path))  # a link is written through
+    beside = place.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}.part")
     try:
-        with replacing(str(path), str(beside)):
+        with replacing(str(place), str(beside)):
             write(beside)
     except OSError as error:
         raise UnwritableFile(path, _why(path, error)) from error

@@ -44,6 +44,18 @@ def mismatch(value: object, shapes: Mapping[str, str]) -> str | None:
     return None
 
 
+REACH = 1e7
+"""Pixels. What lies farther from a picture is no geometry: its squares and products leave float32."""
+
+
+def too_far(name: str, places: NDArray[Any]) -> str | None:
+    """That a coordinate is farther away than `REACH`, in a sentence; None where all are nearer."""
+    if not places.size:
+        return None
+    farthest = float(abs(places).max())
+    return f"{name} reaches {farthest:.3g}, farther than {REACH:g} pixels" if farthest > REACH else None
+
+
 def out_of_range(name: str, indices: NDArray[Any] | None, count: int, *, none: bool = False) -> str | None:
     """That an index points outside of what it counts, in a sentence; None where all are in 0..count-1.
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.types.agreement import mismatch, out_of_range
+from graphface.nodes.types.agreement import mismatch, out_of_range, too_far
 from graphface.nodes.types.arrays import Depth, FloatArray, Mask, Normals
 
 
@@ -64,7 +64,7 @@ class Landmarks:
     def flaw(self) -> str | None:
         """Why its parts do not belong together."""
         count = _POINTS.get(self.scheme, "N")
-        return mismatch(self, {"points": f"{count} 3"})
+        return mismatch(self, {"points": f"{count} 3"}) or too_far("points", self.points)
 
     @property
     def interocular(self) -> float:
@@ -144,6 +144,7 @@ class Mesh:
         }
         return (
             mismatch(self, shapes)
+            or too_far("vertices", self.vertices)
             or out_of_range("triangles", self.triangles, count)
             or out_of_range("mirror", self.mirror, count, none=True)
             or out_of_range("facemesh", self.facemesh, count, none=True)
@@ -176,7 +177,11 @@ class Surface:
     def flaw(self) -> str | None:
         """Why its parts do not belong together."""
         shapes = {"coverage": "H W", "depth": "H W", "triangle": "H W", "normals": "H W 3", "barycentric": "H W 3"}
-        return mismatch(self, shapes) or out_of_range("triangle", self.triangle, 1 << 31, none=True)
+        return (
+            mismatch(self, shapes)
+            or too_far("depth", self.depth)
+            or out_of_range("triangle", self.triangle, 1 << 31, none=True)
+        )
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 
 from graphface.nodes.types.agreement import mismatch
 from graphface.nodes.types.arrays import Encoding, FloatArray, Mask
+from graphface.nodes.types.from_pillow import is_pillow, pillow_array
 
 
 @dataclass(frozen=True)
@@ -109,20 +110,21 @@ def image_from_array(value: object) -> Image:
 
     Args:
         value: an `Image` (returned as it is), or an array of H x W, H x W x 1 (grey), H x W x 3 (RGB) or H x W x 4
-            (RGB and alpha): uint8, uint16, bool, or floating in 0..1. The array is copied.
+            (RGB and alpha): uint8, uint16, bool, or floating in 0..1, of either byte order; or a picture of Pillow.
+            It is copied.
 
     Raises:
         ValueError: another shape, dtype or range, no pixels, or values that are not numbers.
     """
     if isinstance(value, Image):
         return value
-    array = np.asarray(value)
+    array = pillow_array(value) if is_pillow(value) else np.asarray(value)
+    array = array.astype(array.dtype.newbyteorder("="), copy=False)
     if array.ndim == 2:
         array = array[..., None]
     if array.ndim != 3 or array.shape[2] not in (1, 3, 4) or array.size == 0:
         raise ValueError(
-            f"expected a picture of H x W, H x W x 3 or H x W x 4, got {type(value).__name__} of shape "
-            f"{np.asarray(value).shape}"
+            f"expected a picture of H x W, H x W x 3 or H x W x 4, got {type(value).__name__} of shape {array.shape}"
         )
     unit = _unit(array)
     channels = unit.shape[2]

@@ -88,7 +88,7 @@ class Surroundings:
         height, width = self.weight.shape
         if self.cell < 1:
             return f"cell is {self.cell}, expected 1 or more"
-        if not self.nearest.size:
+        if not (self.nearest.size or self.total.size or self.far.size):
             return None
         top, bottom, left, right = self.window
         blocks = (-(-height // self.cell), -(-width // self.cell))

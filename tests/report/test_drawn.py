@@ -54,10 +54,9 @@ class TestWritePixels:
             assert np.abs(np.asarray(opened.convert("RGB")).astype(int) - ramp).max() <= tolerance
 
     def test_refused(self, tmp_path: Path) -> None:
-        """A folder that is a file, and a picture that the format cannot hold; no file is left."""
-        (tmp_path / "none").write_text("")
+        """A folder that cannot be made, and a picture that the format cannot hold; no file is left."""
         with pytest.raises(UnwritableFile):
-            write_pixels(np.zeros((2, 2, 3), np.uint8), tmp_path / "none" / "a.png")
+            write_pixels(np.zeros((2, 2, 3), np.uint8), tmp_path / ("x" * 300) / "a.png")
         with pytest.raises(UnwritableFile):
             write_pixels(np.zeros((1, 20_000, 3), np.uint8), tmp_path / "a.webp")
-        assert [path.name for path in tmp_path.iterdir()] == ["none"]
+        assert not list(tmp_path.iterdir())

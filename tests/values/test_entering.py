@@ -69,6 +69,7 @@ class TestArrays:
         given = np.array([2.0])
         assert entered(given, PortType((LOOSE,))) is given
         assert entered(given, ANY) is given
+        assert entered(given.astype(">f8"), ANY).dtype == ">f8"
 
     def test_items(self) -> None:
         """Of a list, each."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import struct
+import warnings
 import zlib
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -17,6 +19,8 @@ from graphface import GraphfaceWarning, UnreadableFile
 from graphface.nodes.io.image_read import _upright, read_image
 from graphface.nodes.io.image_write import write_image
 from graphface.nodes.types import FileFormat, Image
+
+CASES = Path(__file__).parents[4] / "shared" / "cases"
 
 
 class TestOrientation:
@@ -136,6 +140,27 @@ class TestKinds:
             image = read_image(tmp_path / "a.jpg")
         assert image.file.icc is None
         assert image.pixels[0, 0, 0] > 0.8 > 0.2 > image.pixels[0, 0, 2]
+
+
+class TestDamagedExif:
+    @pytest.mark.filterwarnings("ignore:Corrupt EXIF data")
+    @pytest.mark.parametrize("damage", ["", "49492a00", "49492a00ff", "ffffffff00000008", "4d4d002a000000080002"])
+    def test_pixels_are_good(self, tmp_path, damage):
+        """A picture whose EXIF is damaged is read without it, with a warning."""
+        Pillow.new("RGB", (8, 8), "red").save(tmp_path / "a.jpg", exif=b"Exif\0\0" + bytes.fromhex(damage), quality=95)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            image = read_image(tmp_path / "a.jpg")
+        assert image.pixels[0, 0, 0] > 0.9
+        assert image.file.exif is None
+        assert not damage or any("EXIF" in str(one.message) for one in said)
+
+    @pytest.mark.filterwarnings("ignore")
+    @pytest.mark.skipif(not CASES.is_dir(), reason="needs ../shared/cases")
+    @pytest.mark.parametrize("name", ["bad_header.jpg", "cut_entry.jpg", "cut_header.jpg"])
+    def test_cases(self, name):
+        """Files that were refused."""
+        assert read_image(CASES / "truncated_exif" / name).pixels.shape == (512, 512, 3)
 
 
 class TestUnreadable:

@@ -131,6 +131,13 @@ class TestUnwritable:
         with pytest.raises(UnwritableFile, match="does not exist"):
             write_image(Image(smooth()), tmp_path / "none" / "a.png")
 
+    def test_link(self, tmp_path):
+        """A symbolic link stays; what it points to is the picture."""
+        (tmp_path / "link.png").symlink_to(tmp_path / "target.png")
+        write_image(Image(smooth()), tmp_path / "link.png")
+        assert (tmp_path / "link.png").is_symlink()
+        assert (tmp_path / "target.png").stat().st_size > 100
+
     def test_read_only_folder(self, tmp_path, monkeypatch):
         """A folder that may not be written to is named, and nothing is left in it."""
 

@@ -48,6 +48,9 @@ GOOD = [MESH, SURFACE, MATCH, FEATURES, DETAIL, Lighting(flat(4)), Lighting(flat
 BAD = [
     (replace(MESH, triangles=whole(0, 1, 4).reshape(1, 3)), "triangles has indices from 0 to 4, allowed are 0 to 3"),
     (replace(MESH, triangles=whole(0, 1, -1).reshape(1, 3)), "triangles has indices from -1"),
+    (replace(MESH, vertices=flat(4, 3) + 1e30), "vertices reaches 1e.30, farther than"),
+    (Landmarks(flat(9, 3) - 1e8, "mine"), "points reaches"),
+    (replace(SURFACE, depth=PLANE + 1e9), "depth reaches"),
     (replace(MESH, normals=flat(3, 3)), r"normals has the shape \(3, 3\)"),
     (replace(MESH, uv=flat(4, 3)), "uv has the shape"),
     (replace(MESH, mirror=whole(9)), "mirror has indices"),

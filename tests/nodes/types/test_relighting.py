@@ -43,6 +43,7 @@ BAD = [
     (replace(SAMPLES, coverage=flat(3, 2)), "coverage has the shape"),
     (replace(SAMPLES, weights=flat(3)), "weights has the shape"),
     (replace(AROUND, nearest=np.full((1, 2), 2)), "nearest has indices"),
+    (replace(AROUND, nearest=np.zeros((0, 2), np.intp)), "nearest has the shape"),
     (replace(AROUND, cell=0), "cell is 0"),
     (replace(AROUND, window=(0, 2, 0, 2)), "is no part"),
     (replace(AROUND, total=flat(2, 2)), "total has the shape"),
