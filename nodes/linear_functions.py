@@ -8,6 +8,7 @@ functions follow the large picture's edges.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphface.nodes.types import FloatArray
 
@@ -16,6 +17,10 @@ _PAIRS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 _LEAST_DETERMINANT = 1e-30
 """Is divided by."""
+
+
+_COARSE = 1e-4
+"""Ridge from which float32 is enough. Below it, in a grey picture, three large products cancel."""
 
 
 def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: float) -> FloatArray:
@@ -32,9 +37,8 @@ def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: floa
     Returns:
         float32 h x w x 4m: a's three numbers and b of the first map, then of the next.
 
-    >>> guide = np.zeros((6, 6, 3), np.float32)
-    >>> guide[:, 3:] = 1
-    >>> slope = linear_functions(guide, 2 * guide[..., :1], 3, 1e-6)[2, 2, :3]
+    >>> guide = np.random.default_rng(0).random((8, 8, 1), np.float32).repeat(3, axis=2)
+    >>> slope = linear_functions(guide, 2 * guide[..., :1], 3, 1e-6)[4, 4, :3]
     >>> bool(abs(slope.sum() - 2) < 1e-2)
     True
     """
@@ -49,14 +53,15 @@ def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: floa
     for i in range(3):
         covariance[i, i] += np.float32(ridge)
     inverse = _inverse(covariance)
+    if ridge >= _COARSE:
+        inverse = {place: np.asarray(plane, np.float32) for place, plane in inverse.items()}
     found = []
     for value in values:
         average = mean(value)
         crossed = [mean(color * value) - own * average for color, own in zip(colors, means, strict=True)]
         for i in range(3):
-            slope = np.zeros_like(value)
-            for j in range(3):
-                slope += inverse[min(i, j), max(i, j)] * crossed[j]
+            total = sum(inverse[min(i, j), max(i, j)] * crossed[j] for j in range(3))
+            slope = np.asarray(total, np.float32)
             average -= slope * means[i]
             found.append(mean(slope))
         found.append(mean(average))
@@ -67,7 +72,7 @@ def _planes(values: FloatArray) -> list[FloatArray]:
     return [np.ascontiguousarray(values[..., c], np.float32) for c in range(values.shape[2])]
 
 
-def _inverse(matrix: dict[tuple[int, int], FloatArray]) -> dict[tuple[int, int], FloatArray]:
+def _inverse(matrix: dict[tuple[int, int], FloatArray]) -> dict[tuple[int, int], NDArray[np.float64]]:
     """Of a symmetric positive definite 3 x 3 matrix at every pixel, by cofactors; both by their upper triangles.
 
     In float64: with a small ridge the determinant is a difference of nearly equal products.
@@ -83,4 +88,4 @@ def _inverse(matrix: dict[tuple[int, int], FloatArray]) -> dict[tuple[int, int],
     }
     determinant = m[0, 0] * cofactors[0, 0] + m[0, 1] * cofactors[0, 1] + m[0, 2] * cofactors[0, 2]
     reciprocal = 1 / np.maximum(determinant, _LEAST_DETERMINANT)
-    return {place: np.asarray(cofactor * reciprocal, np.float32) for place, cofactor in cofactors.items()}
+    return {place: cofactor * reciprocal for place, cofactor in cofactors.items()}

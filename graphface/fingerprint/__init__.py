@@ -23,7 +23,7 @@ from typing import Any
 from graphface.fingerprint.loaded import Watch
 from graphface.fingerprint.walk import Walk
 
-RESULT_FORMAT = 1
+RESULT_FORMAT = 2
 """What the engine does to results: how arguments are passed, values coerced, frozen, stored and keyed.
 
 The engine's code is in no fingerprint; raising this number makes all memoized results new. A test says when."""

@@ -25,8 +25,8 @@ GUARDED = {
     "graphface.graph.wiring:_Wirer._arguments": "3791d2c195b5",
     "graphface.graph.wiring:_Wirer._validate": "46a411889fc1",
     # given values
-    "graphface.graph.inputs:_bind_file": "f8eb11b235cf",
-    "graphface.graph.inputs:_bind_object": "107b97da5471",
+    "graphface.graph.inputs:_bind_file": "eca4908ee9de",
+    "graphface.graph.inputs:_bind_object": "7f6a54c85c7d",
     "graphface.graph.inputs:_from_text": "e0e303043794",
     "graphface.graph.inputs:_own": "7c42d5152225",
     "graphface.values.port_types:PortType.coerce": "d82125ab228b",
