@@ -19,10 +19,6 @@ _LEAST_DETERMINANT = 1e-30
 """Is divided by."""
 
 
-_COARSE = 1e-4
-"""Ridge from which float32 is enough. Below it, in a grey picture, three large products cancel."""
-
-
 def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: float) -> FloatArray:
     """a and b of value = a . color + b, for each of the maps.
 
@@ -53,13 +49,12 @@ def linear_functions(guide: FloatArray, maps: FloatArray, side: int, ridge: floa
     for i in range(3):
         covariance[i, i] += np.float32(ridge)
     inverse = _inverse(covariance)
-    if ridge >= _COARSE:
-        inverse = {place: np.asarray(plane, np.float32) for place, plane in inverse.items()}
     found = []
     for value in values:
         average = mean(value)
         crossed = [mean(color * value) - own * average for color, own in zip(colors, means, strict=True)]
         for i in range(3):
+            # In float64: of a grey picture three large products cancel.
             total = sum(inverse[min(i, j), max(i, j)] * crossed[j] for j in range(3))
             slope = np.asarray(total, np.float32)
             average -= slope * means[i]
