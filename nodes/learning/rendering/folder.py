@@ -58,5 +58,5 @@ def render_people(
         missing = [number for number in range(expressions) if not photo_path(folder, seed, number).exists()]
         if missing:
             for number, photo in expressive_photos(model, seed, missing, size=size, samples=samples):
-                write_image(Image(photo.astype(np.float32) / 255), photo_path(folder, seed, number))
+                write_image(Image(photo.astype(np.float32) / np.float32(255)), photo_path(folder, seed, number))
         yield seed, len(missing)
