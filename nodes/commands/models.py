@@ -176,9 +176,12 @@ def labels(
 
 @app.command()
 def render(
-    out: Annotated[Path, typer.Argument(help="Folder to fill, NUMBER.npz each; what is there is not rendered again.")],
+    out: Annotated[Path, typer.Argument(help="Folder to fill; what is there is not rendered again.")],
     head: Annotated[Path, typer.Option(help="Your copy of ICT-FaceKit (MIT): its folder FaceXModel, or packed.")],
-    count: Annotated[int, typer.Option(min=1, help="Number of examples.")] = 100,
+    count: Annotated[int, typer.Option(min=1, help="Number of examples, or of people.")] = 100,
+    expressions: Annotated[
+        int, typer.Option(min=0, help="Of each person, as NUMBER_EXPRESSION.png for `models learn --people`.")
+    ] = 0,
     seed: Annotated[int, typer.Option(min=0, help="Number of the first; each example depends on its number.")] = 0,
     size: Annotated[int, typer.Option(min=16, max=1024, help="Pixels along a side.")] = 176,
     samples: Annotated[int, typer.Option(min=1, help="Paths through a pixel; what is left of noise is filtered.")] = 3,
@@ -190,11 +193,20 @@ def render(
     camera frame), `depth` (inter-ocular distances), `labels` (0 rest, 1 skin, 2 eyes and teeth), `visibility`
     (255 times the share of the first lamp that reaches a pixel) and `facts` (JSON: lights, pose, camera).
 
+    With --expressions each person is photographed so many times, near-frontal under even light: smiling, talking,
+    frowning, with closed eyes. Only the photographs are kept. --size 256 and more shows the landmark network enough.
+
     A run that was stopped goes on where it was. One process uses one core: start several, with seeds of their own.
     """
-    from graphface.nodes.learning.rendering.folder import render_folder
+    from graphface.nodes.learning.rendering.folder import render_folder, render_people
 
-    made = sum(new for _, new in render_folder(head, out, range(seed, seed + count), size=size, samples=samples))
+    seeds = range(seed, seed + count)
+    if expressions:
+        found = render_people(head, out, seeds, expressions=expressions, size=size, samples=samples)
+        made = sum(new for _, new in found)
+        print(f"{out}: {made} photographs of {count} people rendered, {expressions * count - made} were there")
+        return
+    made = sum(new for _, new in render_folder(head, out, seeds, size=size, samples=samples))
     print(f"{out}: {made} rendered, {count - made} were there")
 
 

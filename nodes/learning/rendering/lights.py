@@ -40,10 +40,10 @@ _KINDS = ("flash", "window", "side", "hard", "two", "even")
 _SHARES = (0.17, 0.22, 0.22, 0.17, 0.14, 0.08)
 
 
-def random_lights(random: np.random.Generator) -> Lights:
-    """Lights as people are photographed in; irradiance of about 1 at the head."""
+def random_lights(random: np.random.Generator, kind: str | None = None) -> Lights:
+    """Lights as people are photographed in, or those of a kind; irradiance of about 1 at the head."""
     u = random.uniform
-    kind = str(random.choice(_KINDS, p=_SHARES))
+    kind = kind or str(random.choice(_KINDS, p=_SHARES))
     side = float(random.choice([-1, 1]))
     placed: list[tuple[float, float, float, float, float]]  # azimuth, elevation, distance, half size, strength
     if kind == "flash":

@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphface.nodes.harmonics import rotation_matrix
 from graphface.nodes.learning.rendering.denoise import denoised
 from graphface.nodes.learning.rendering.example import BARE_SKIN, EYES_AND_TEETH, FORMAT, REST, Example
 from graphface.nodes.learning.rendering.film import developed
-from graphface.nodes.learning.rendering.head_model import EYE, SKIN, TEETH, HeadModel, normals_of
+from graphface.nodes.learning.rendering.framing import framed, turned
+from graphface.nodes.learning.rendering.head_model import EYE, SKIN, TEETH, HeadModel
 from graphface.nodes.learning.rendering.lights import Lights, random_lights
-from graphface.nodes.learning.rendering.relief import relief
-from graphface.nodes.learning.rendering.scene import Body, View, path_traced
-from graphface.nodes.learning.rendering.skin import coat
+from graphface.nodes.learning.rendering.person import dressed, expressed, random_shape
+from graphface.nodes.learning.rendering.scene import View, path_traced
 from graphface.nodes.rasterize import rasterized
 from graphface.nodes.render.depth_buffer import disc, visible_share
 from graphface.nodes.types import FloatArray, Mesh, Surface
@@ -32,9 +31,11 @@ def make_example(model: HeadModel, seed: int, *, size: int, samples: int) -> Exa
         UsageError: mitsuba is not installed.
     """
     random = np.random.default_rng(seed)
-    body, part, hair, landmarks, expression = _body(model, random)
-    body, landmarks, pose = _posed(body, landmarks, random)
-    view = _view(landmarks, random, size)
+    shape = random_shape(model, random)
+    expression = _expression(model.names, random) if random.uniform() < 0.7 else {}
+    person = dressed(model, shape, random)
+    body, landmarks, pose = turned(*expressed(model, person, expression), random)
+    view = framed(landmarks, random, size)
     lights = random_lights(random)
     wall = tuple(random.uniform(0.03, 0.75, 3) if random.random() < 0.3 else np.full(3, random.uniform(0.02, 0.8)))
     noisy = path_traced(body, view, lights, wall, samples=samples, seed=seed % 2**31)
@@ -42,9 +43,9 @@ def make_example(model: HeadModel, seed: int, *, size: int, samples: int) -> Exa
     eyes = float(np.linalg.norm(landmarks[36] - landmarks[45]))
     mesh = view.mesh(body.vertices, body.triangles, body.normals, eyes)
     surface = rasterized(mesh, (size, size), smoothing=0.0)
-    labels = _labels(surface, mesh, part, hair)
+    labels = _labels(surface, mesh, model.part, person.coat.hair)
     visibility = _visibility(mesh, surface, view, lights)
-    albedo = _interpolated(body.albedo, surface, mesh)
+    albedo = interpolated(body.albedo, surface, mesh)
     radiance = denoised(noisy, albedo, surface.normals, visibility, surface.coverage > 0)
     facts = {
         "format": FORMAT,
@@ -67,27 +68,6 @@ def make_example(model: HeadModel, seed: int, *, size: int, samples: int) -> Exa
     )
 
 
-def _body(
-    model: HeadModel, random: np.random.Generator
-) -> tuple[Body, NDArray[np.int8], NDArray[np.float64], NDArray[np.float64], dict[str, float]]:
-    """A person with an expression; parts, share of hair (M,), landmarks (68, 3) and the expression's weights."""
-    u = random.uniform
-    weights = random.normal(size=len(model.identity)) * u(0.6, 1.15)
-    weights[40:] *= 0.5
-    person = model.mean + np.tensordot(weights.astype(np.float32), model.identity, 1)
-    expression = _expression(model.names, random) if u() < 0.7 else {}
-    moved = person.copy()
-    for name, weight in expression.items():
-        moved += weight * model.expression[model.names.index(name)]
-    rest, vertices = model.refinement @ model.mean, model.refinement @ moved
-    clothing = coat(model, rest, random)
-    height = clothing.thickness + (relief(model, rest, random) * (1 - clothing.hair) if u() < 0.9 else 0)
-    vertices = vertices + height[:, None] * normals_of(vertices, model.triangles)
-    normals = normals_of(vertices, model.triangles)
-    body = Body(vertices, normals, model.triangles, clothing.albedo, clothing.roughness, clothing.specular)
-    return body, model.part, clothing.hair, moved[model.landmarks], expression
-
-
 def _expression(names: tuple[str, ...], random: np.random.Generator) -> dict[str, float]:
     """A few weights, most of them the same on both sides."""
     weights: dict[str, float] = {}
@@ -100,40 +80,7 @@ def _expression(names: tuple[str, ...], random: np.random.Generator) -> dict[str
     return weights
 
 
-def _posed(
-    body: Body, landmarks: NDArray[np.float64], random: np.random.Generator
-) -> tuple[Body, NDArray[np.float64], dict[str, float]]:
-    yaw = float(np.clip(random.normal() * 17, -45, 45))
-    pitch, roll = float(np.clip(random.normal() * 8, -22, 22)), float(random.normal() * 6)
-    turn, middle = rotation_matrix(yaw, pitch, roll), landmarks.mean(axis=0)
-    moved = Body(
-        (body.vertices - middle) @ turn.T + middle,
-        body.normals @ turn.T,
-        body.triangles,
-        body.albedo,
-        body.roughness,
-        body.specular,
-    )
-    return moved, (landmarks - middle) @ turn.T + middle, {"yaw": yaw, "pitch": pitch, "roll": roll}
-
-
-def _view(landmarks: NDArray[np.float64], random: np.random.Generator, size: int) -> View:
-    """A camera that frames the face; far away with a long lens, or near as for a selfie."""
-    u = random.uniform
-    middle = landmarks.mean(axis=0)
-    height = float(np.linalg.norm(landmarks[8] - landmarks[27]))
-    angle = np.radians(u(9, 26))
-    distance = u(0.82, 1.08) * height / np.tan(angle / 2)
-    origin = middle + np.array([u(-1, 1), u(-2, 2), distance])
-    target = middle + np.array([u(-0.8, 0.8), u(0.04, 0.16) * height, 0])
-    back = (origin - target) / np.linalg.norm(origin - target)
-    right = np.cross([0, 1, 0], back)
-    right /= np.linalg.norm(right)
-    axes = np.stack([right, np.cross(back, right), back])
-    return View(origin, axes, size / 2 / float(np.tan(angle / 2)), size, float((origin - middle) @ back))
-
-
-def _interpolated(values: NDArray[np.float64], surface: Surface, mesh: Mesh) -> FloatArray:
+def interpolated(values: NDArray[np.float64], surface: Surface, mesh: Mesh) -> FloatArray:
     """Values at vertices (M, 3) on the picture, 0 beyond the head."""
     found = np.zeros((*surface.coverage.shape, values.shape[1]), np.float32)
     covered = surface.coverage > 0
