@@ -20,9 +20,9 @@ ILL_CONDITIONED = 1e3
 about 20."""
 
 
-SAMPLES = 1 << 15
-"""Approximate number of pixels of a fit; of a larger face a regular grid is used. A light has few unknowns: on
-path-traced heads the coefficients change by less than 0.1 %."""
+SAMPLES = 1 << 12
+"""Approximate number of pixels of a fit; of a larger face a regular grid is used. A light has few unknowns: with eight
+times as many, relit heads and photographs score the same, to 0.02 dB and 0.0001, for three times the time."""
 
 
 _DIRECTION_RIDGE = 1e-4
