@@ -145,11 +145,18 @@ class Source:
                 self.bindings[label] = None  # bound twice; overloads and setters are functions of one name
 
     def _named_files(self, folders: Sequence[Path]) -> Iterator[Path]:
-        """The files that quoted words name, with those beside them of another suffix: a card belongs to its weights."""
+        """The files that quoted words name, with those beside them of another suffix: a card belongs to its weights.
+
+        What the kernel shows as files, such as the memory that is free, is no part of the code.
+        """
         for quoted in _WORDS.findall(self._text.decode("utf-8", "replace")):
             words = re.findall(r"[\w./-]+", quoted)
             for name in (*words, "/".join(words)):
-                for file in (folder / name for folder in folders if "." in name or "/" in name):
+                for file in (folder / name for folder in folders if _may_name(name)):
                     if file.suffix not in _CODE and file.is_file():
                         others = file.parent.glob(escape(file.stem) + ".*")
                         yield from sorted({file, *(other for other in others if other.suffix not in _CODE)})
+
+
+def _may_name(name: str) -> bool:
+    return ("." in name or "/" in name) and not name.startswith(("/proc/", "/sys/", "/dev/"))
