@@ -22,6 +22,7 @@ from graphface.nodes.color import channel_mean, decode_srgb
 from graphface.nodes.image.resize import resize
 from graphface.nodes.io.image_read import read_image
 from graphface.nodes.io.image_write import write_image, write_picture
+from graphface.nodes.landmarks.scaled import scaled
 from graphface.nodes.render.irradiance import irradiance
 from graphface.nodes.types import FloatArray, Image, Landmarks, Scene, Segmentation
 from graphface.values.writing import beside, make_folder
@@ -87,11 +88,22 @@ def relit_looks(
 
 def _look(session: Session, photo: str, name: str, scene: Scene, folder: Path) -> Look:
     session.edit(scene=scene)
-    found = session.render(["image", "photo", "face.landmarks", "face.labels"])
-    write_case(folder, found["photo"], found["image"], found["face.landmarks"], found["face.labels"])
-    landmarks = found["face.landmarks"]
-    rim = rim_dip(_shadow(session, scene), landmarks, found["face.labels"].face) if scene.casting else np.nan
+    found = session.render(["image", "photo", "face.working", "face.landmarks", "face.labels"])
+    own, working = found["photo"], found["face.working"]
+    landmarks = scaled(found["face.landmarks"], working, own)
+    write_case(folder, own, found["image"], landmarks, _enlarged(found["face.labels"], own))
+    shadow = _shadow(session, scene) if scene.casting else None
+    rim = np.nan if shadow is None else rim_dip(shadow, found["face.landmarks"], found["face.labels"].face)
     return Look(photo, name, _far_over_near(found["image"], landmarks, scene), rim)
+
+
+def _enlarged(labels: Segmentation, photo: Image) -> Segmentation:
+    """Labels of the working size at the photo's."""
+    import cv2
+
+    size = photo.width, photo.height
+    parts = (labels.face, labels.hair, labels.background)
+    return Segmentation(*(np.asarray(cv2.resize(part, size, interpolation=cv2.INTER_LINEAR)) for part in parts))
 
 
 def write_case(folder: Path, photo: Image, result: Image, landmarks: Landmarks, labels: Segmentation) -> None:

@@ -39,7 +39,8 @@ def demo(
 
     make_folder(folder)
     given = photo if photo is not None else astronaut()
-    graph = load("relight")
+    # Every stage is shown beside the photo, so all of them are of its size.
+    graph = load("relight", set={"face/working_size.resolution": None})
     asked = ["image", "photo", "face.mesh", "face.landmarks", *_STAGES.values()]
     records, relit, results = [], {}, None
     with ProgressBar() as bar:

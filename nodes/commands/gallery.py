@@ -30,6 +30,7 @@ def gallery(
     from graphface.nodes.bench.contact_sheet import around_face, contact_sheet
     from graphface.nodes.bench.shipped import astronaut, shipped_scenes
     from graphface.nodes.io.image_write import write_image, write_picture
+    from graphface.nodes.landmarks.scaled import scaled
     from graphface.nodes.pictures.photo import bytes_of
     from graphface.values.writing import make_folder
 
@@ -45,9 +46,9 @@ def gallery(
         evaluator = Evaluator(memory=MemoryTier(), threads=os.cpu_count() or 1)
         cells: list[tuple[str, Any]] = []
         for path in scenes:
-            asked = ["image", "photo", "face.landmarks"]
+            asked = ["image", "photo", "face.working", "face.landmarks"]
             found = graph.run(asked, evaluator=evaluator, photo=source, scene=path)
-            near = around_face(found["face.landmarks"], found["photo"])
+            near = around_face(scaled(found["face.landmarks"], found["face.working"], found["photo"]), found["photo"])
             if not cells:
                 cells.append((name, bytes_of(found["photo"])[near]))
             cells.append((path.stem, bytes_of(found["image"])[near]))

@@ -34,6 +34,20 @@ def looks(face, tmp_path_factory):
 
 
 class TestRelitLooks:
+    def test_of_the_photos_size(self, face, tmp_path):
+        """Where the graph works on a smaller copy, labels and points are those of the photo all the same."""
+        write_picture(face, tmp_path / "me.png")
+        (tmp_path / "left.yaml").write_text(LEFT)
+        graph = load("relight", set={"face/working_size.resolution": 40})
+        (look,) = relit_looks([tmp_path / "me.png"], [tmp_path / "left.yaml"], graph, tmp_path / "out", 512)
+        assert 0 < look.cheeks < 0.8
+        case = tmp_path / "out" / "left" / "me"
+        sizes = {read_image(case / f"{name}.png").pixels.shape for name in ("photo", "result", "face")}
+        assert len(sizes) == 1
+        points, inside = np.load(case / "points.npy"), read_image(case / "face.png").pixels[..., 0]
+        x, y = np.round(points[[4, 50, 280], :2]).astype(int).T
+        assert inside[y, x].min() > 0.9
+
     def test_a_case_for_each_photo_and_scene(self, looks):
         """What cannot be read is left out."""
         assert [(look.photo, look.scene) for look in looks[0]] == [("me", "left"), ("me", "even")]
