@@ -103,7 +103,9 @@ def _enlarged(labels: Segmentation, photo: Image) -> Segmentation:
 
     size = photo.width, photo.height
     parts = (labels.face, labels.hair, labels.background)
-    return Segmentation(*(np.asarray(cv2.resize(part, size, interpolation=cv2.INTER_LINEAR)) for part in parts))
+    return Segmentation(
+        *(np.asarray(cv2.resize(part, size, interpolation=cv2.INTER_LINEAR), np.float32) for part in parts)
+    )
 
 
 def write_case(folder: Path, photo: Image, result: Image, landmarks: Landmarks, labels: Segmentation) -> None:
