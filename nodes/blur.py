@@ -1,6 +1,8 @@
-"""Gaussian blur: exact, or at a cost that does not grow with its width."""
+"""Gaussian blur: exact, or at a cost that does not grow with its width; and averages of weighted pixels."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
@@ -60,3 +62,31 @@ def gaussian(values: FloatArray, sigma: float) -> FloatArray:
     import cv2
 
     return np.asarray(cv2.GaussianBlur(values, (0, 0), max(sigma, 0.5), borderType=cv2.BORDER_REPLICATE), np.float32)
+
+
+def normalized(
+    values: FloatArray,
+    weight: FloatArray,
+    sigma: float,
+    least: float,
+    blur: Callable[[FloatArray, float], FloatArray] = gaussian,
+) -> FloatArray:
+    """Gaussian averages over weighted pixels alone (normalized convolution, Knutsson and Westin 1993).
+
+    Args:
+        values: float32 H x W or H x W x c. weight: H x W, 0 or more.
+        sigma: standard deviation, pixels, above 0.
+        least: the smallest sum of weights under the Gaussian that is divided by; far from all of them the result is 0.
+        blur: `gaussian`, or `blurred` for large pictures.
+
+    Returns:
+        float32 of the shape of `values`.
+
+    >>> row = np.float32([[0, 0, 1, 1]])
+    >>> normalized(row, np.float32([[0, 0, 1, 1]]), 1.0, 1e-3)[0, 1]
+    np.float32(1.0)
+    """
+    deep = values if values.ndim == 3 else values[..., None]
+    sums = blur(np.concatenate([deep * weight[..., None], weight[..., None]], axis=2), sigma)
+    average = sums[..., :-1] / np.maximum(sums[..., -1:], np.float32(least))
+    return np.asarray(average.reshape(values.shape), np.float32)

@@ -78,6 +78,17 @@ def in_space(pixels: FloatArray, space: ColorSpace) -> FloatArray:
     return lab * np.asarray([0.01, 0.02, 0.02], np.float32)
 
 
+def lab(pixels: FloatArray) -> FloatArray:
+    """CIE Lab of sRGB-encoded pixels H x W x 3, which are limited to 0..1: L 0..100, a and b about -128..127.
+
+    >>> lab(np.float32([[[1, 1, 1]]])).round(1) + 0
+    array([[[100.,   0.,   0.]]], dtype=float32)
+    """
+    import cv2
+
+    return np.asarray(cv2.cvtColor(np.clip(pixels, 0, 1).astype(np.float32), cv2.COLOR_RGB2Lab), np.float32)
+
+
 def channel_mean(values: FloatArray) -> FloatArray:
     """The mean of R, G and B, H x W: the paper's intensity. A map without channels, H x W, is returned as it is.
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.random import Generator
 
+from graphface.nodes.color import lab
 from graphface.nodes.learning.label_paint import Person, painted
 from graphface.nodes.learning.label_pictures import TrainingPicture
 from graphface.nodes.masks.upright_grid import HEIGHT, UNIT, WIDTH, upright_grid
@@ -54,9 +55,9 @@ def with_hair_of(own: Person, donor: TrainingPicture, random: Generator) -> Pers
     if random.random() < 0.25:  # on one side alone, as a tail or a plait
         right = np.arange(WIDTH) > own.landmarks.points[:, 0].mean()
         alpha = alpha * (right if random.random() < 0.5 else ~right)
-    before = _lab(own.pixels)
+    before = lab(own.pixels)
     if random.random() < 0.8 and alpha.sum() > 1:
-        wanted = np.average(_lab(pixels).reshape(-1, 3), axis=0, weights=alpha.ravel())
+        wanted = np.average(lab(pixels).reshape(-1, 3), axis=0, weights=alpha.ravel())
         before = _moved(before, own.labels[..., 1], wanted)
     shown = _rgb(before)
     shown += alpha[..., None] * (pixels - shown)
@@ -69,7 +70,7 @@ def dyed(own: Person, random: Generator) -> Person:
     """With hair of any color: like the skin beside it, black to white, fair, red, or in a color that no hair has."""
     kind, skin = random.random(), own.labels[..., 0] > 0.8
     if kind < 0.25 and skin.any():
-        wanted = np.median(_lab(own.pixels)[skin], axis=0) + random.normal(0, 1, 3) * (9, 3, 5)
+        wanted = np.median(lab(own.pixels)[skin], axis=0) + random.normal(0, 1, 3) * (9, 3, 5)
     elif kind < 0.45:
         wanted = np.array([random.uniform(5, 95), random.normal(2, 3), random.normal(5, 5)])
     elif kind < 0.7:
@@ -77,8 +78,8 @@ def dyed(own: Person, random: Generator) -> Person:
     else:
         angle, strength = random.uniform(0, 2 * np.pi), random.uniform(15, 65)
         wanted = np.array([random.uniform(8, 80), strength * np.cos(angle), strength * np.sin(angle)])
-    lab = _moved(_lab(own.pixels), own.labels[..., 1], wanted, np.exp(random.normal(0, 0.3)))
-    return Person(_rgb(lab), own.labels, own.person, own.landmarks)
+    moved = _moved(lab(own.pixels), own.labels[..., 1], wanted, np.exp(random.normal(0, 0.3)))
+    return Person(_rgb(moved), own.labels, own.person, own.landmarks)
 
 
 def with_scarf(own: Person, random: Generator) -> Person:
@@ -109,12 +110,12 @@ def bare_shouldered(own: Person, random: Generator) -> Person:
     if face.sum() < 20:
         return own
     clothes = np.clip(own.person - face - own.labels[..., 1], 0, 1)
-    lab = _lab(own.pixels)
-    skin = np.median(lab[face > 0.8], axis=0) if (face > 0.8).any() else np.array([60.0, 16, 18])
-    folds = cv2.GaussianBlur(np.ascontiguousarray(lab[..., 0]), (0, 0), random.uniform(1.5, 4))
+    colors = lab(own.pixels)
+    skin = np.median(colors[face > 0.8], axis=0) if (face > 0.8).any() else np.array([60.0, 16, 18])
+    folds = cv2.GaussianBlur(np.ascontiguousarray(colors[..., 0]), (0, 0), random.uniform(1.5, 4))
     folds = folds - (folds * clothes).sum() / max(float(clothes.sum()), 1.0)
     y, x = np.mgrid[:HEIGHT, :WIDTH].astype(np.float32)
-    shaded = np.empty_like(lab)
+    shaded = np.empty_like(colors)
     shaded[..., 0] = skin[0] + random.normal(-4, 6) + random.uniform(0, 0.35) * folds
     shaded[..., 0] += random.normal(0, 6) * (x / WIDTH - 0.5) + random.normal(-4, 6) * (y / HEIGHT - 0.7)
     shaded[..., 1:] = skin[1:] + random.normal(0, 2.5, 2)
@@ -151,27 +152,21 @@ def reshaped(own: Person, random: Generator) -> Person:
     return Person(warped(own.pixels), warped(own.labels), warped(own.person), own.landmarks)
 
 
-def _moved(lab: FloatArray, mask: FloatArray, wanted: np.ndarray, contrast: float = 1.0) -> FloatArray:
+def _moved(colors: FloatArray, mask: FloatArray, wanted: np.ndarray, contrast: float = 1.0) -> FloatArray:
     """Colors under a mask, moved so that their mean is `wanted`."""
     total = float(mask.sum())
     if total < 1:
-        return lab
-    middle = (lab * mask[..., None]).sum(axis=(0, 1)) / total
+        return colors
+    middle = (colors * mask[..., None]).sum(axis=(0, 1)) / total
     # Dark hair has little contrast in its lightness; made fair it has more.
     gain = contrast * np.clip((wanted[0] + 10) / (middle[0] + 10), 0.5, 2.0)
-    changed = wanted + (lab - middle) * (gain, contrast, contrast)
-    return np.asarray(lab + mask[..., None] * (changed - lab), np.float32)
+    changed = wanted + (colors - middle) * (gain, contrast, contrast)
+    return np.asarray(colors + mask[..., None] * (changed - colors), np.float32)
 
 
-def _lab(pixels: FloatArray) -> FloatArray:
+def _rgb(colors: FloatArray) -> FloatArray:
     import cv2
 
-    return np.asarray(cv2.cvtColor(np.ascontiguousarray(np.clip(pixels, 0, 1)), cv2.COLOR_RGB2Lab), np.float32)
-
-
-def _rgb(lab: FloatArray) -> FloatArray:
-    import cv2
-
-    lab = np.asarray(lab, np.float32).copy()
-    lab[..., 0] = np.clip(lab[..., 0], 0, 100)
-    return np.clip(np.asarray(cv2.cvtColor(lab, cv2.COLOR_Lab2RGB), np.float32), 0, 1)
+    colors = np.asarray(colors, np.float32).copy()
+    colors[..., 0] = np.clip(colors[..., 0], 0, 100)
+    return np.clip(np.asarray(cv2.cvtColor(colors, cv2.COLOR_Lab2RGB), np.float32), 0, 1)

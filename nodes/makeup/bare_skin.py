@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import node, warn
+from graphface.nodes.color import lab
 from graphface.nodes.face_scale import FaceScale, face_scale
 from graphface.nodes.types import BareSkin, Features, FloatArray, Image, Landmarks, Mask, Segmentation, Surface
 
@@ -35,6 +36,10 @@ _RIDGE = np.array([1e-6, 0.01, 0.01, 0.01, 0.01, 0.01, 0.05, 0.05, 0.05])
 
 
 _ROUNDS, _FIRST_ROUNDS = 10, 3
+
+
+_COUNTED = 20_000
+"""Pixels of a median, about."""
 
 
 _LEAST_DEVIATION = 0.012
@@ -78,8 +83,8 @@ def bare_skin(
     pixels = np.maximum(copy.down(photo.pixels), 0)
     parts = features.any_of("eyes", "mouth", "lips", "lids", "brows")
     usable = (copy.down(np.minimum(skin, surface.coverage)) > 0.9) & (copy.down(np.maximum(parts, labels.hair)) < 0.08)
-    lab = _lab(pixels)
-    chroma = np.hypot(lab[..., 1], lab[..., 2])
+    values = lab(pixels)
+    chroma = np.hypot(values[..., 1], values[..., 2])
     colorful = float(np.clip(np.quantile(chroma, 0.9) / 6 - 1, 0, 1))
     if usable.sum() < _LEAST_PIXELS:
         warn("makeup.bare_skin: too little skin is seen; its color is taken as constant")
@@ -87,7 +92,7 @@ def bare_skin(
         mean = pixels[covered].mean(axis=0) if covered.any() else pixels.reshape(-1, 3).mean(axis=0)
         color = np.tile(np.maximum(mean, np.float32(_DARKEST)).astype(np.float32), (*skin.shape, 1))
         return BareSkin(color, 0.03, 0.0, colorful)
-    likely = _skin_likelihood(lab)[usable]
+    likely = _skin_likelihood(values)[usable]
     share = float(likely.mean())
     greasepaint = float(np.clip((_UNPAINTED - share) / (_UNPAINTED - _PAINTED), 0, 1)) * colorful
     weight = np.maximum(likely, max(greasepaint, 0.02)).astype(np.float64)
@@ -97,10 +102,11 @@ def bare_skin(
     return BareSkin(copy.up(np.exp(field) - np.float32(_FLOOR)), deviation, greasepaint, colorful)
 
 
-def _lab(pixels: FloatArray) -> FloatArray:
-    import cv2
-
-    return np.asarray(cv2.cvtColor(np.clip(pixels, 0, 1).astype(np.float32), cv2.COLOR_RGB2Lab), np.float32)
+def bare_color(bare: BareSkin, surface: Surface) -> FloatArray:
+    """Median color of bare skin under the light of the face's middle, float32 (3,); the picture's where no face is."""
+    covered = bare.color[surface.coverage > 0.5]
+    seen = covered if len(covered) else bare.color.reshape(-1, 3)
+    return np.asarray(np.median(seen[:: max(1, len(seen) // _COUNTED)], axis=0), np.float32)
 
 
 def _skin_likelihood(lab: FloatArray) -> FloatArray:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from graphface.nodes.blur import gaussian
+from graphface.nodes.color import lab
+from graphface.nodes.disc import disc
 from graphface.nodes.types import FloatArray
 
 _REACH = 0.045
@@ -39,27 +41,19 @@ def brow_hair(
     """
     import cv2
 
-    zone = np.asarray(cv2.dilate((brows > 0.3).astype(np.float32), ellipse(_REACH * unit)), np.float32)
-    zone *= 1 - cv2.dilate((eyes > 0.3).astype(np.float32), ellipse(_LID * unit))
+    zone = np.asarray(cv2.dilate((brows > 0.3).astype(np.float32), disc(max(1, _REACH * unit))), np.float32)
+    zone *= 1 - cv2.dilate((eyes > 0.3).astype(np.float32), disc(max(1, _LID * unit)))
     zone = gaussian(zone, 0.015 * unit)
     light = departure.mean(axis=2)
-    lab = np.asarray(cv2.cvtColor(np.clip(pixels, 0, 1).astype(np.float32), cv2.COLOR_RGB2Lab), np.float32)
+    color = lab(pixels)
     certain = (brows > 0.6) & (light < -0.3)
     darkness = max(float(np.median(-light[certain])), 0.0) if certain.sum() >= _LEAST_PIXELS else 0.0
     least, ramp = max(_DARK, 0.4 * darkness), max(_RAMP, 0.3 * darkness)
     hair = zone * np.clip((-light - least) / ramp, 0, 1)
     # Hair is neither blue nor strongly colored: a painted brow is paint.
-    hair *= np.clip((lab[..., 2] + 9) / 5, 0, 1) * np.clip((38 - np.hypot(lab[..., 1], lab[..., 2])) / 8, 0, 1)
+    hair *= np.clip((color[..., 2] + 9) / 5, 0, 1) * np.clip((38 - np.hypot(color[..., 1], color[..., 2])) / 8, 0, 1)
     if darkness > 0:
         chroma = departure - light[..., None]
         apart = np.linalg.norm(chroma - np.median(chroma[certain], axis=0), axis=2)
         hair *= np.clip(2.5 - apart / _COLOR, 0, 1)
     return np.asarray(hair, np.float32)
-
-
-def ellipse(radius: float) -> FloatArray:
-    """A disc for dilations; the radius in pixels, at least 1."""
-    import cv2
-
-    side = 2 * max(1, round(radius)) + 1
-    return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side)))

@@ -8,7 +8,8 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.color import in_three_channels
+from graphface.nodes.color import in_three_channels, lab
+from graphface.nodes.makeup.bare_skin import bare_color
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import BareSkin, Features, FloatArray, Image, Mask, Paint, Surface
 
@@ -35,11 +36,10 @@ def foundation(
         skin: what is shifted: with ears and neck. Openings of eyes and mouth, lips and brows stay.
         strength: share of the difference between the two skins. bound: the largest shift, CIE76.
     """
-    covered = surface.coverage > 0.5
     share = strength * (1 - paint.greasepaint) * bare.colorful
-    if share == 0 or not covered.any():
+    if share == 0 or not (surface.coverage > 0.5).any():
         return photo
-    own = np.median(bare.color[covered][:: max(1, int(covered.sum()) // 20000)], axis=0)
+    own = bare_color(bare, surface)
     factor = np.asarray(_shifted(own, paint.skin, share, bound) / np.maximum(own, 0.02), np.float32)
     kept = np.minimum(features.any_of("eyes", "mouth", "lips", "brows"), 1)
     pixels = np.empty_like(photo.pixels)
@@ -58,8 +58,7 @@ def _shifted(own: FloatArray, other: FloatArray, share: float, bound: float) -> 
     """A color moved towards another one by a share of their distance in CIE Lab, at most by the bound."""
     import cv2
 
-    both = np.clip(np.stack([own, other])[None], 0, 1).astype(np.float32)
-    lab = cv2.cvtColor(both, cv2.COLOR_RGB2Lab)[0]
-    step = share * (lab[1] - lab[0])
+    before, after = lab(np.stack([own, other])[None])[0]
+    step = share * (after - before)
     step *= min(1.0, bound / max(float(np.linalg.norm(step)), 1e-6))
-    return np.asarray(cv2.cvtColor((lab[0] + step)[None, None].astype(np.float32), cv2.COLOR_Lab2RGB)[0, 0], np.float32)
+    return np.asarray(cv2.cvtColor((before + step)[None, None].astype(np.float32), cv2.COLOR_Lab2RGB)[0, 0], np.float32)

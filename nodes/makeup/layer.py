@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.blur import gaussian
-from graphface.nodes.bounding_box import bounding_box
+from graphface.nodes.blur import gaussian, normalized
+from graphface.nodes.bounding_box import Box, bounding_box
 from graphface.nodes.color import channel_mean, in_three_channels
 from graphface.nodes.face_scale import FaceScale, face_scale
+from graphface.nodes.makeup.bare_skin import bare_color
 from graphface.nodes.makeup.brow_hair import brow_hair
 from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.strips import by_strips
@@ -88,45 +89,125 @@ def layer(
     box = bounding_box((core > 0) & ((paint.opacity > 0) | (paint.departure != 0).any(axis=2)))
     if box is None:
         return photo
-    copy = face_scale(landmarks, core[box].shape, 100)
-    skin_lightness = _lightness(bare, surface)
-    own = _Own(copy, photo.pixels[box], bare.color[box], skin_lightness)
-    departure = np.clip(paint.departure[box], _LEAST_DEPARTURE, _LARGEST_DEPARTURE)
-    worn = copy.up(own.worn(copy.down(departure)))
-    eyes, around_brows = (copy.down(getattr(features, name)[box]) for name in ("eyes", "brows"))
-    hair = np.float32(brows) * copy.up(brow_hair(own.pixels, own.departure, around_brows, eyes, copy.interocular))
-    small = copy.down(departure)
-    own_broad, broad = (copy.up(gaussian(v, _FINE * copy.interocular)) for v in (own.log, channel_mean(small)))
-    on_lips = copy.up(_within(small, copy.down(features.lips[box]), _FINE * copy.interocular))
+    color = bare_color(bare, surface)
+    own = _Own(face_scale(landmarks, core[box].shape, 100), box, photo, bare, features, float(color.mean()))
     facing = np.clip((surface.normals[box][..., 2] - _TURNED) / (_FACING - _TURNED), 0, 1)
     weight = np.asarray(core[box] * facing * (1 - np.minimum(features.openings[box], 1)), np.float32)
-    darker = np.clip(skin_lightness / max(float(paint.skin.mean()), 1e-3), _LEAST_EXPOSURE, _LARGEST_LIGHT)
+    darker = np.clip(color.mean() / max(float(paint.skin.mean()), 1e-3), _LEAST_EXPOSURE, _LARGEST_LIGHT)
     pigment = paint.skin * np.float32(darker**exposure)
-    light, skin_log = (copy.up(np.asarray(v, np.float32)) for v in (own.light, own.skin_log))
-    keep = np.float32(relief) + np.float32(relief_lips - relief) * features.lips[box]
-    keep *= 1 - hair
-    pixels, opacity, lips = photo.pixels[box], paint.opacity[box], features.lips[box]
+    blend = _blend(own, paint, weight, pigment, relief, relief_lips, brows)
+    pixels = photo.pixels[box]
     result = photo.pixels.copy()
     into = result[box]
 
     def strip(rows: slice) -> None:
-        lip = lips[rows]
-        # Gloss and lines of the other lips have a color of their own, and go as a whole.
-        put_on = departure[rows] - in_three_channels(np.float32(relief_lips) * lip) * (departure[rows] - on_lips[rows])
-        log = np.log(np.maximum(channel_mean(pixels[rows]), 0) + _FLOOR)
-        fine = log - own_broad[rows] - (1 - lip) * (channel_mean(departure[rows]) - broad[rows])
-        fine = np.clip(fine, -_LARGEST_FINE, _LARGEST_FINE)
-        through = np.exp(keep[rows] * fine + hair[rows] * np.clip(log - skin_log[rows], -2, 0))
-        a = opacity[rows] * weight[rows]
-        sheer = np.exp(put_on * in_three_channels(weight[rows] * (1 - worn[rows])))
-        opaque = np.exp(put_on) * pigment * in_three_channels(light[rows] * through)
-        painted = pixels[rows] * sheer
-        painted += in_three_channels(a) * (opaque - painted)
-        there = in_three_channels(((a > 0) | (np.abs(put_on).max(axis=2) * weight[rows] > 0)).astype(np.float32)) > 0
-        into[rows] = np.where(there, np.clip(painted, 0, 1), pixels[rows])
+        into[rows] = blend.rows(rows, pixels[rows])
 
     by_strips(strip, pixels.shape)
     return photo.with_pixels(result)
+
+
+class _Own:
+    """What the photo shows in the painted part of the face: `pixels` and logarithms on a small copy of it."""
+
+    def __init__(
+        self, copy: FaceScale, box: Box, photo: Image, bare: BareSkin, features: Features, lightness: float
+    ) -> None:
+        self.copy, self.box = copy, box
+        self.pixels, color = copy.down(photo.pixels[box]), copy.down(bare.color[box])
+        smooth = gaussian(self.pixels, 0.008 * copy.interocular)
+        self.departure = np.log(np.maximum(smooth, 0) + _FLOOR) - np.log(np.maximum(color, 0) + _FLOOR)
+        self.log = np.log(np.maximum(channel_mean(self.pixels), 0) + _FLOOR)
+        mean = np.maximum(channel_mean(color), _FLOOR / 2)
+        self.skin_log = np.asarray(np.log(mean + _FLOOR), np.float32)
+        self.light = np.asarray(
+            np.clip(mean / np.float32(max(lightness, 1e-3)), _LEAST_LIGHT, _LARGEST_LIGHT), np.float32
+        )
+        self.lips: FloatArray = features.lips[box]
+        self.eyes, self.brows = (copy.down(getattr(features, name)[box]) for name in ("eyes", "brows"))
+
+    def worn(self, departure: FloatArray) -> FloatArray:
+        """Share of a departure that the photo has already, h x w, 0 to 1."""
+        along = np.einsum("hwc,hwc->hw", self.departure, departure)
+        return np.asarray(np.clip(along / np.maximum(np.square(departure).sum(axis=2), 1e-4), 0, 1), np.float32)
+
+    def brow_hair(self) -> FloatArray:
+        return brow_hair(self.pixels, self.departure, self.brows, self.eyes, self.copy.interocular)
+
+
+@dataclass(frozen=True)
+class _Blend:
+    """What a painted part of a picture is made of.
+
+    Attributes:
+        departure: of the layer from bare skin, n x m x 3; `broad` its mean without relief, `on_lips` its broad color on
+            the lips.
+        weight: how much of the layer is put on; `sheer` less where it is worn already.
+        opacity, lips, hair: shares. keep: share of the photo's relief, and `taken` that of its lips.
+        own_broad: the photo's logarithm without relief. skin_log: that of its bare skin.
+        pigment: color of opaque bare skin (3,). light: on the photo's skin.
+    """
+
+    departure: FloatArray
+    broad: FloatArray
+    on_lips: FloatArray
+    weight: FloatArray
+    sheer: FloatArray
+    opacity: FloatArray
+    lips: FloatArray
+    taken: FloatArray
+    keep: FloatArray
+    hair: FloatArray
+    own_broad: FloatArray
+    skin_log: FloatArray
+    pigment: FloatArray
+    light: FloatArray
+
+    def rows(self, rows: slice, pixels: FloatArray) -> FloatArray:
+        """The painted pixels of some rows; where nothing is put on they stay to the last bit."""
+        departure, opacity = self.departure[rows], self.opacity[rows]
+        # Gloss and lines of the other lips have a color of their own, and go as a whole.
+        put_on = departure - in_three_channels(self.taken[rows]) * (departure - self.on_lips[rows])
+        painted = pixels * np.exp(put_on * in_three_channels(self.sheer[rows]))
+        opaque = np.exp(put_on) * self.pigment * in_three_channels(self.light[rows] * self._relief(rows, pixels))
+        painted += in_three_channels(opacity) * (opaque - painted)
+        there = (opacity > 0) | ((np.abs(put_on).max(axis=2) * self.weight[rows]) > 0)
+        return np.where(there[..., None], np.clip(painted, 0, 1), pixels)
+
+    def _relief(self, rows: slice, pixels: FloatArray) -> FloatArray:
+        """What of the photo's relief and brows shows through opaque paint, a factor n x m."""
+        log = np.log(np.maximum(channel_mean(pixels), 0) + _FLOOR)
+        of_layer = (1 - self.lips[rows]) * (channel_mean(self.departure[rows]) - self.broad[rows])
+        fine = np.clip(log - self.own_broad[rows] - of_layer, -_LARGEST_FINE, _LARGEST_FINE)
+        return np.asarray(
+            np.exp(self.keep[rows] * fine + self.hair[rows] * np.clip(log - self.skin_log[rows], -2, 0)), np.float32
+        )
+
+
+def _blend(
+    own: _Own, paint: Paint, weight: FloatArray, pigment: FloatArray, relief: float, relief_lips: float, brows: float
+) -> _Blend:
+    copy, sigma = own.copy, _FINE * own.copy.interocular
+    departure = np.clip(paint.departure[own.box], _LEAST_DEPARTURE, _LARGEST_DEPARTURE)
+    small = copy.down(departure)
+    hair = np.float32(brows) * copy.up(own.brow_hair())
+    keep = np.float32(relief) + np.float32(relief_lips - relief) * own.lips
+    return _Blend(
+        departure=departure,
+        broad=copy.up(gaussian(channel_mean(small), sigma)),
+        on_lips=copy.up(normalized(small, copy.down(own.lips), sigma, 1e-3)),
+        weight=weight,
+        sheer=weight * (1 - copy.up(own.worn(small))),
+        opacity=paint.opacity[own.box] * weight,
+        lips=own.lips,
+        taken=np.float32(relief_lips) * own.lips,
+        keep=keep * (1 - hair),
+        hair=hair,
+        own_broad=copy.up(gaussian(own.log, sigma)),
+        skin_log=copy.up(own.skin_log),
+        pigment=pigment,
+        light=copy.up(own.light),
+    )
 
 
 def _continued(paint: Paint, core: Mask, face: Mask, landmarks: Landmarks) -> tuple[Paint, Mask]:
@@ -146,33 +227,3 @@ def _continued(paint: Paint, core: Mask, face: Mask, landmarks: Landmarks) -> tu
     departure = spread[..., :3] + in_three_channels(core) * (paint.departure - spread[..., :3])
     opacity = spread[..., 3] + core * (paint.opacity - spread[..., 3])
     return replace(paint, departure=departure, opacity=np.clip(opacity, 0, 1)), np.maximum(core, inside)
-
-
-def _within(values: FloatArray, mask: FloatArray, sigma: float) -> FloatArray:
-    """The values under a Gaussian, of the pixels in the mask alone."""
-    sums = gaussian(np.dstack([values * mask[..., None], mask]), sigma)
-    return np.asarray(sums[..., :3] / np.maximum(sums[..., 3:], np.float32(1e-3)), np.float32)
-
-
-class _Own:
-    """What the photo shows, on a small copy of the painted part of the face."""
-
-    def __init__(self, copy: FaceScale, pixels: FloatArray, color: FloatArray, lightness: float) -> None:
-        self.pixels, color = copy.down(pixels), copy.down(color)
-        smooth = gaussian(self.pixels, 0.008 * copy.interocular)
-        self.departure = np.log(np.maximum(smooth, 0) + _FLOOR) - np.log(np.maximum(color, 0) + _FLOOR)
-        self.log = np.log(np.maximum(channel_mean(self.pixels), 0) + _FLOOR)
-        mean = np.maximum(channel_mean(color), _FLOOR / 2)
-        self.skin_log = np.log(mean + _FLOOR)
-        self.light = np.clip(mean / np.float32(max(lightness, 1e-3)), _LEAST_LIGHT, _LARGEST_LIGHT)
-
-    def worn(self, departure: FloatArray) -> FloatArray:
-        """Share of a departure that the photo has already, h x w, 0 to 1."""
-        along = np.einsum("hwc,hwc->hw", self.departure, departure)
-        return np.asarray(np.clip(along / np.maximum(np.square(departure).sum(axis=2), 1e-4), 0, 1), np.float32)
-
-
-def _lightness(bare: BareSkin, surface: Surface) -> float:
-    """Median lightness of the photo's bare skin; of the whole picture where no face is."""
-    seen = channel_mean(bare.color)[surface.coverage > 0.5]
-    return float(np.median(seen[:: max(1, len(seen) // 20000)] if len(seen) else bare.color))

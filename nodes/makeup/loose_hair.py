@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from graphface import Formerly, node
+from graphface.nodes.disc import disc
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import Features, FloatArray, Image, Landmarks, Mask, Segmentation
 
@@ -79,9 +80,8 @@ def loose_hair(
     strands = _connected(likely_hair & ~protected & ~certain_skin, hair) & ~hair
     if not strands.any():
         return skin
-    side = 2 * max(1, round(margin * unit)) + 1
-    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
-    found = np.asarray(cv2.dilate(strands.astype(np.float32), kernel) * (1 - protected), np.float32)
+    grown = cv2.dilate(strands.astype(np.float32), disc(max(1, margin * unit)))
+    found = np.asarray(grown * (1 - protected), np.float32)
     found = np.asarray(cv2.GaussianBlur(found, (0, 0), max(0.02 * unit, 0.5)), np.float32)
     return np.asarray(skin * (1 - copy.up(found)), np.float32)
 

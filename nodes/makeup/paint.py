@@ -18,8 +18,10 @@ from graphface import node
 from graphface.nodes.blur import gaussian
 from graphface.nodes.bounding_box import Box, bounding_box
 from graphface.nodes.color import channel_mean, in_three_channels
+from graphface.nodes.disc import disc
 from graphface.nodes.face_scale import FaceScale, face_scale
-from graphface.nodes.makeup.brow_hair import brow_hair, ellipse
+from graphface.nodes.makeup.bare_skin import bare_color
+from graphface.nodes.makeup.brow_hair import brow_hair
 from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.strips import by_strips
 from graphface.nodes.types import BareSkin, Features, FloatArray, Image, Landmarks, Mask, Paint, Surface
@@ -97,11 +99,7 @@ def paint(
     """
     opacity = np.zeros_like(visible)
     departure = np.zeros_like(photo.pixels)
-    # The light in the middle of the face is that of an average pixel of it.
-    covered = surface.coverage > 0.5
-    step = max(1, int(covered.sum()) // 20000)
-    seen = bare.color[covered][::step]
-    skin = np.asarray(np.median(seen, axis=0) if len(seen) else np.ones(3), np.float32)
+    skin = bare_color(bare, surface)
     box = bounding_box(np.minimum(visible, surface.coverage) > 0, margin=round(0.1 * landmarks.interocular))
     if box is None:
         return Paint(opacity, departure, skin)
@@ -112,7 +110,7 @@ def paint(
     there = copy.down(visible[box] * np.clip(2 * surface.coverage[box] - 1, 0, 1))
     facing = np.clip((copy.down(surface.normals[box][..., 2]) - _TURNED) / (_FACING - _TURNED), 0, 1)
     there = np.asarray(there * facing, np.float32)
-    hair = np.asarray(cv_dilated(found.hair(), 0.018 * copy.interocular) * (1 - brows), np.float32)
+    hair = np.asarray(_grown(found.hair(), 0.018 * copy.interocular) * (1 - brows), np.float32)
     layer = np.dstack([found.departure * share[..., None], opaqueness])
     # What crosses a brow is seen above it; eye shadow ends below.
     beside = there * (hair < 0.05) * (found.light > -_DARK_ELSEWHERE)
@@ -141,11 +139,11 @@ def paint(
     return Paint(opacity, departure, skin, bare.greasepaint)
 
 
-def cv_dilated(mask: FloatArray, radius: float) -> FloatArray:
+def _grown(mask: FloatArray, radius: float) -> FloatArray:
     """A soft mask grown by a radius in pixels."""
     import cv2
 
-    grown = np.asarray(cv2.dilate(mask, ellipse(radius)), np.float32)
+    grown = np.asarray(cv2.dilate(mask, disc(max(1, radius))), np.float32)
     return np.asarray(np.clip(1.2 * gaussian(grown, 0.6 * radius), 0, 1), np.float32)
 
 
@@ -195,7 +193,7 @@ class _Layer:
         import cv2
 
         amount = np.asarray(amount + self.at_lips * (np.maximum(amount, on_lips) - amount), np.float32)
-        closed = cv2.morphologyEx(amount, cv2.MORPH_CLOSE, ellipse(_GAP * self.unit))
+        closed = cv2.morphologyEx(amount, cv2.MORPH_CLOSE, disc(max(1, _GAP * self.unit)))
         return np.asarray(np.maximum(amount, closed * self.may_wear), np.float32)
 
     def shares(
@@ -244,7 +242,7 @@ def _dilated(mask: NDArray[Any], radius: float) -> FloatArray:
     """The mask's inside, 1 above 0.3, grown by a radius in pixels."""
     import cv2
 
-    return np.asarray(cv2.dilate((mask > 0.3).astype(np.float32), ellipse(radius)), np.float32)
+    return np.asarray(cv2.dilate((mask > 0.3).astype(np.float32), disc(max(1, radius))), np.float32)
 
 
 def _filled(values: FloatArray, weight: FloatArray, unit: float) -> FloatArray:

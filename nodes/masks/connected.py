@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphface.nodes.disc import disc
 from graphface.nodes.head_shape import CHIN, EYE_LINE
 from graphface.nodes.masks.geodesic import geodesic_distance
 from graphface.nodes.masks.layout import Layout
@@ -95,12 +96,11 @@ def disconnected(
     """
     import cv2
 
-    radius = max(0, round(MIN_WIDTH * unit / 2))
-    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
+    narrow = disc(MIN_WIDTH * unit / 2)
     # Eroding the probability cuts strips that are too narrow; eroding the distance gives the rim back.
-    lacking = np.square(1 - np.asarray(cv2.erode(probability, disc, borderType=cv2.BORDER_REPLICATE), np.float32))
+    lacking = np.square(1 - np.asarray(cv2.erode(probability, narrow, borderType=cv2.BORDER_REPLICATE), np.float32))
     cost = np.asarray((GAP_COST * lacking + (0 if extra_cost is None else extra_cost)) / max(unit, 1.0), np.float32)
     start = np.where(seeds, 2 * lacking, 9).astype(np.float32)
     distance = geodesic_distance(start, cost, steps=MAX_STEPS, tolerance=1e-3)
-    distance = np.asarray(cv2.erode(distance, disc, iterations=2), np.float32)
+    distance = np.asarray(cv2.erode(distance, narrow, iterations=2), np.float32)
     return np.asarray(np.clip(2 * distance - 0.5, 0, 1), np.float32)

@@ -11,6 +11,7 @@ from pydantic import Field
 from graphface import node
 from graphface.nodes.blur import blurred
 from graphface.nodes.color import channel_mean
+from graphface.nodes.disc import disc
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.head_shape import CHIN, pose_of
 from graphface.nodes.smoothstep import smoothstep
@@ -72,8 +73,7 @@ def lamps(
     spots = (copy.down(blown_out.astype(np.float32)) > 0.5).astype(np.uint8)
     intensity, wall = copy.down(channel_mean(photo.pixels)), copy.down(background)
     # Without strands: between curls a white wall would stand out from the dark hair about it.
-    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * max(1, round(_STRAND * copy.interocular / 2)) + 1,) * 2)
-    behind = cv2.morphologyEx(intensity, cv2.MORPH_CLOSE, disc)
+    behind = cv2.morphologyEx(intensity, cv2.MORPH_CLOSE, disc(max(1, _STRAND * copy.interocular / 2)))
     count, found, boxes, middles = cv2.connectedComponentsWithStats(spots)
     numbers, extents = np.asarray(found, np.int32), np.asarray(boxes, np.int32)
     areas = extents[:, cv2.CC_STAT_AREA]
@@ -89,8 +89,7 @@ def lamps(
     if not kept.any():
         return nothing
     width = glow * copy.interocular
-    side = 2 * max(1, round(width / 2)) + 1
-    grown = cv2.dilate(kept[numbers], cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side)))
+    grown = cv2.dilate(kept[numbers], disc(max(1, width / 2)))
     soft = blurred(np.asarray(grown, np.float32), max(width / 4, 0.5))
     soft *= smoothstep((intensity - np.float32(_GLOW[0])) / np.float32(_GLOW[1] - _GLOW[0]))
     return np.asarray(copy.up(soft) * background, np.float32)
@@ -115,5 +114,4 @@ def _grown(spot: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
     """A spot and what is nearer to it than `reach` pixels."""
     import cv2
 
-    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach - 1,) * 2)
-    return np.asarray(cv2.dilate(spot.astype(np.uint8), disc) > 0)
+    return np.asarray(cv2.dilate(spot.astype(np.uint8), disc(reach - 1)) > 0)

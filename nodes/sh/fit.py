@@ -55,7 +55,7 @@ def fit(
         ridge: relative weight of the ridge.
         robust: against what no light explains: brows, eyes, lips, beards, cast shadows and highlights; see
             `graphface.nodes.sh.regression`. (Relit path-traced heads: none 28.0, huber 29.0, trimmed 29.0 dB; two
-            heads of another family 27.4, 27.6, 27.6 dB; squared error on the Yale set 0.0099, 0.0097, 0.0096.)
+            heads of another family 27.4, 27.6, 27.6 dB; squared error on the Yale set 0.0099, 0.0098, 0.0097.)
         keep: share of the pixels that "trimmed" fits.
         nonnegative: constrain the light to be at least 0 in 600 directions.
         grey: one light for all channels of a colored shading.

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from graphface.nodes.blur import gaussian, normalized
 from graphface.nodes.color import channel_mean
+from graphface.nodes.disc import disc
 from graphface.nodes.landmark_schemes import ibug68
 from graphface.nodes.surface.face_crop import INTEROCULAR, SIZE, FaceCrop
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
@@ -62,11 +64,8 @@ def off_hair(hair: FloatArray) -> FloatArray:
 
 def carried_over_features(shadow: FloatArray, crop: FaceCrop, landmarks: Landmarks) -> FloatArray:
     """A shadow, SIZE x SIZE, that runs over eyes, brows and lips as it does beside them: they are dark in any light."""
-    import cv2
-
     free = _off_features(crop, landmarks)
-    sigma = _CARRIED * INTEROCULAR
-    beside = cv2.GaussianBlur(shadow * free, (0, 0), sigma) / np.maximum(cv2.GaussianBlur(free, (0, 0), sigma), 0.02)
+    beside = normalized(shadow, free, _CARRIED * INTEROCULAR, 0.02)
     return np.asarray(beside + (shadow - beside) * free, np.float32)
 
 
@@ -88,5 +87,4 @@ def _away_from(what: FloatArray, reach: float) -> FloatArray:
     import cv2
 
     pixels = round(reach * INTEROCULAR)
-    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * pixels + 1, 2 * pixels + 1))
-    return np.asarray(1 - cv2.GaussianBlur(cv2.dilate(what, kernel), (0, 0), pixels / 2), np.float32)
+    return np.asarray(1 - gaussian(np.asarray(cv2.dilate(what, disc(pixels))), pixels / 2), np.float32)

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from graphface import node
-from graphface.nodes.blur import blurred
+from graphface.nodes.blur import blurred, normalized
 from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.types import DetailMap, Features, FloatArray, Landmarks, Mask
 
@@ -88,6 +88,4 @@ def _exchanged(
 
 
 def _weighted_average(values: FloatArray, weight: FloatArray, sigma: float) -> FloatArray:
-    """A Gaussian average over the weighted pixels; 0 far from all of them."""
-    sums = blurred(np.dstack([values * weight, weight]), max(sigma, 0.5))
-    return np.asarray(sums[..., :3] / np.maximum(sums[..., 3:], np.float32(1e-3)), np.float32)
+    return normalized(values, weight[..., 0], max(sigma, 0.5), 1e-3, blurred)

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from graphface import node
 from graphface.nodes.color import channel_mean, in_three_channels
+from graphface.nodes.disc import disc
 from graphface.nodes.face_scale import face_scale
 from graphface.nodes.types import FloatArray, Image, Landmarks, Mask
 
@@ -54,8 +55,7 @@ def paint(
     of_photo, of_reference = (_relative_chromaticity(copy.down(image.pixels), inside) for image in (photo, reference))
     difference = np.abs(of_photo - of_reference).max(axis=2).astype(np.float32)
     difference = cv2.GaussianBlur(difference, (0, 0), max(0.02 * copy.interocular, 0.5))
-    side = 2 * round(margin * copy.interocular) + 1
-    difference = cv2.dilate(difference, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side)))
+    difference = cv2.dilate(difference, disc(margin * copy.interocular))
     found = np.clip((difference - faint) / max(full - faint, 1e-3), 0, 1).astype(np.float32)
     return np.asarray(np.clip(copy.up(found), 0, 1) * (mask > 0), np.float32)
 

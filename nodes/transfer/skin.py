@@ -12,6 +12,7 @@ from graphface import node
 from graphface.nodes.blur import blurred, gaussian
 from graphface.nodes.bounding_box import bounding_box
 from graphface.nodes.color import channel_mean
+from graphface.nodes.disc import disc
 from graphface.nodes.face_scale import FaceScale, face_scale
 from graphface.nodes.relief import filled, logarithm
 from graphface.nodes.smoothstep import smoothstep
@@ -58,11 +59,10 @@ def skin(
     if box is None:
         return core
     copy = face_scale(landmarks, core[box].shape, resolution)
-    side = 2 * round(margin * copy.interocular) + 1
-    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
+    around = disc(margin * copy.interocular)
 
     def without(part: FloatArray) -> FloatArray:
-        return np.clip(1 - gaussian(np.asarray(cv2.dilate(part, kernel)), 0.01 * copy.interocular), 0, 1)
+        return np.clip(1 - gaussian(np.asarray(cv2.dilate(part, around)), 0.01 * copy.interocular), 0, 1)
 
     shares = {"eyes": 0.0, "mouth": 0.0, "brows": brows, "lips": lips}
     bare = copy.down(core[box])
