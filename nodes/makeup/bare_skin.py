@@ -46,8 +46,13 @@ _LEAST_DEVIATION = 0.012
 """Natural logarithms."""
 
 
-_HUES, _LEAST_CHROMA, _LARGEST_CHROMA = (20.0, 78.0), 6.0, 44.0
+_HUES, _LEAST_CHROMA, _LARGEST_CHROMA = (20.0, 78.0), 6.0, 58.0
 """Of skin in CIE Lab, hue in degrees: on 26 portraits of all skin tones the medians are 25 to 66, and 6 to 36."""
+
+
+_GREY, _TINTED = 6.0, 13.0
+"""Chroma of the strongest colors of a face up to which a photo is black and white, and up to which it may be a tinted
+one, whose pallor is no greasepaint; from twice that on it certainly is neither. Pale faces have 13 and more."""
 
 
 _OFF_SKIN = 1.5
@@ -83,18 +88,20 @@ def bare_skin(
     pixels = np.maximum(copy.down(photo.pixels), 0)
     parts = features.any_of("eyes", "mouth", "lips", "lids", "brows")
     usable = (copy.down(np.minimum(skin, surface.coverage)) > 0.9) & (copy.down(np.maximum(parts, labels.hair)) < 0.08)
+    covered = copy.down(surface.coverage) > 0.5
     values = lab(pixels)
     chroma = np.hypot(values[..., 1], values[..., 2])
-    colorful = float(np.clip(np.quantile(chroma, 0.9) / 6 - 1, 0, 1))
+    strongest = float(np.quantile(chroma[covered] if covered.any() else chroma, 0.95))
+    colorful = float(np.clip(strongest / _GREY - 1, 0, 1))
     if usable.sum() < _LEAST_PIXELS:
         warn("makeup.bare_skin: too little skin is seen; its color is taken as constant")
-        covered = copy.down(surface.coverage) > 0.5
         mean = pixels[covered].mean(axis=0) if covered.any() else pixels.reshape(-1, 3).mean(axis=0)
         color = np.tile(np.maximum(mean, np.float32(_DARKEST)).astype(np.float32), (*skin.shape, 1))
         return BareSkin(color, 0.03, 0.0, colorful)
     likely = _skin_likelihood(values)[usable]
     share = float(likely.mean())
-    greasepaint = float(np.clip((_UNPAINTED - share) / (_UNPAINTED - _PAINTED), 0, 1)) * colorful
+    greasepaint = float(np.clip((_UNPAINTED - share) / (_UNPAINTED - _PAINTED), 0, 1))
+    greasepaint *= float(np.clip(strongest / _TINTED - 1, 0, 1))
     weight = np.maximum(likely, max(greasepaint, 0.02)).astype(np.float64)
     basis = _basis(copy, copy.down(surface.normals), landmarks)
     field, deviation = _fitted(np.log(pixels + _FLOOR), basis, usable, weight)

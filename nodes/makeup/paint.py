@@ -49,6 +49,11 @@ _SKIN_VARIES = (0.035, 0.08)
 """Bounds of the departure of chroma, in natural logarithms, that is still skin; between them 2 deviations of it."""
 
 
+_UNEVEN, _DISTRUST = 0.06, 2.5
+"""Deviation of chroma from which on a face is lit in several colors, or so hard that its shadows have another color
+than its lights; what is still skin then grows by so much of the rest. Portraits under soft light stay below it."""
+
+
 _DARK_AT_EYES, _DARK_ELSEWHERE = 0.22, 0.92
 """Natural logarithms of darkness that are still shadow."""
 
@@ -182,6 +187,7 @@ class _Layer:
         What is dark needs not hide skin: it darkens any. So the soft edge of liner shows nothing of the wearer's skin.
         """
         tolerance = float(np.clip(2 * self.bare.deviation, *_SKIN_VARIES))
+        tolerance += _DISTRUST * max(self.bare.deviation - _UNEVEN, 0)
         shadow = _DARK_AT_EYES + (_DARK_ELSEWHERE - _DARK_AT_EYES) * (1 - self.at_eyes)
         color = np.maximum(self.chroma - tolerance, 0) * self.may_wear
         amount = np.hypot(color, np.maximum(-self.light - shadow, 0) * self.may_wear)

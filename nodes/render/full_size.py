@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from graphface import Lazy, Needs, UsageError, node
@@ -91,43 +94,49 @@ def full_size(
     """
     if scene.unchanged:
         return photo
-    if working is None or relit is None:
-        raise UsageError(
-            "render.full_size needs the picture before and after unless the scene leaves the photo as it is"
-        )
-    size = photo.pixels.shape[:2]
-    if working.pixels.shape[:2] == size:
+    if working is not None and relit is not None and working.pixels.shape == photo.pixels.shape:
         return relit
-    if (
-        landmarks is None
-        or albedo is None
-        or detail is None
-        or estimated is None
-        or spread is None
-        or labels is None
-        or response is None
-    ):
-        raise UsageError("render.full_size needs all that the relit picture was made of")
-    masks = (labels if scene.background != 1 else None, shine, lamps)
-    share = share_of_new(scene, *masks) if any(mask is not None for mask in masks) else None
-    layers = Layers(
-        pixels=working.pixels,
-        landmarks=landmarks,
-        albedo=albedo,
-        detail=detail,
-        before=estimated,
-        after=spread,
-        wall=wall,
-        background=labels.background,
-        share=share,
-        face=labels.face,
-        response=response,
-        highlights=highlights,
-        encoded=working.encoding == "srgb",
+    parts = {
+        "working": working,
+        "relit": relit,
+        "landmarks": landmarks,
+        "albedo": albedo,
+        "detail": detail,
+        "estimated": estimated,
+        "spread": spread,
+        "labels": labels,
+        "response": response,
+    }
+    missing = [name for name, part in parts.items() if part is None]
+    if missing:
+        raise UsageError(f"render.full_size lacks {', '.join(missing)}, of which the relit picture was made")
+    return _carried(photo, scene, parts, {"wall": wall, "shine": shine, "lamps": lamps, "highlights": highlights})
+
+
+def _carried(photo: Image, scene: Scene, parts: Mapping[str, Any], others: Mapping[str, Any]) -> Image:
+    """The photo relit as its small copy is: `parts` are there, each of `others` may be None."""
+    working, labels, wall = parts["working"], parts["labels"], others["wall"]
+    masks = (labels if scene.background != 1 else None, others["shine"], others["lamps"])
+    pixelwise = Pixelwise(
+        Layers(
+            pixels=working.pixels,
+            landmarks=parts["landmarks"],
+            albedo=parts["albedo"],
+            detail=parts["detail"],
+            before=parts["estimated"],
+            after=parts["spread"],
+            wall=wall,
+            background=labels.background,
+            share=share_of_new(scene, *masks) if any(mask is not None for mask in masks) else None,
+            face=labels.face,
+            response=parts["response"],
+            highlights=others["highlights"],
+            encoded=working.encoding == "srgb",
+        )
     )
-    pixelwise = Pixelwise(layers)
+    size = photo.pixels.shape[:2]
     model = pixelwise.at(size)
-    rest = _rest(pixelwise.at(working.pixels.shape[:2]), working, relit)
+    rest = _rest(pixelwise.at(working.pixels.shape[:2]), working, parts["relit"])
     enlarged = None if rest is None else Enlarged([rest[..., channel] for channel in range(3)], size)
     pixels = np.empty(photo.pixels.shape, np.float32)
 

@@ -12,7 +12,7 @@ from graphface.nodes.color import channel_mean, with_channels_of
 from graphface.nodes.pixel_grid import grid_middles, lifted_pixels
 from graphface.nodes.smoothstep import smoothstep
 from graphface.nodes.strips import by_strips
-from graphface.nodes.types import FloatArray, Mesh, PointLight, Scene, Shading
+from graphface.nodes.types import FloatArray, Image, Mesh, PointLight, Scene, Shading
 
 _CELLS = 48
 """Along the longer side of the picture, at which the falloff is computed; it is smooth."""
@@ -39,9 +39,9 @@ def wall(
     relit: Shading,
     scene: Scene,
     mesh: Mesh,
+    photo: Image,
     *,
     distance: Annotated[float, Field(ge=0, le=100)] = 3.0,
-    encoded: bool = True,
 ) -> Shading:
     """The new shading of a wall behind the head, and of a body below it, on which the light of near lamps falls off.
 
@@ -56,8 +56,8 @@ def wall(
     Args:
         estimated, relit: shading of the whole picture under the photo's own and the new light; H x W or H x W x 3.
         mesh: gives the place and the size of the head, and the camera.
+        photo: its encoding is that of the shading.
         distance: of the wall behind the middle of the head, in inter-ocular distances.
-        encoded: whether shading is sRGB-encoded, as in the shipped graphs; linear otherwise.
 
     Returns:
         float32 of the shape of `relit`, or three channels where the lamps are colored; `relit` itself in a scene in
@@ -66,7 +66,7 @@ def wall(
     if not placed_lamps(scene) or relit.size == 0:
         return relit
     reach = _falloff(scene, mesh, relit.shape[:2], distance)
-    if encoded:
+    if photo.encoding == "srgb":
         reach = reach ** np.float32(_ENCODED)
     kept = {"replace": 0.0, "mix": 1 - scene.mix, "add": 1.0}[scene.mode]
     found = np.empty(relit.shape if relit.ndim == 3 else reach.shape, np.float32)

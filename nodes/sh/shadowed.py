@@ -34,7 +34,6 @@ def shadowed(
     mask: Mask,
     *,
     strength: Annotated[float, Field(ge=0, le=1)] = 1.0,
-    doubt: Annotated[float, Field(ge=0, le=1)] = 0.006,
     floor: Annotated[float, Field(ge=0, le=1)] = 0.05,
 ) -> Shading:
     """Estimated shading, darker where the photo's strongest lamp is blocked.
@@ -42,11 +41,9 @@ def shadowed(
     s' = s - d m (s - s_min), with the least irradiance s_min that the light gives in any direction: what is left
     without its strongest side. The depth d is measured: the shadow is real as far as it explains the photo's shading,
 
-        d = argmin_{0 <= d <= 1} sum_x w(x) (t(x) / a - s(x) + d m(x) (s(x) - s_min))^2 + doubt d^2 sum_x w(x) s(x)^2
+        d = argmin_{0 <= d <= 1} sum_x w(x) (t(x) / a - s(x) + d m(x) (s(x) - s_min))^2
 
-    with a, the median of t / s where no shadow is. What only looks like a shadow, or hardly darkens the face, has no
-    depth. (Without `doubt` even light on two path-traced heads loses 0.14 dB, with it 0.07; of the gain on side-lit
-    photographs of the Yale set a twentieth is lost.)
+    with a, the median of t / s where no shadow is. What only looks like a shadow has no depth.
 
     Args:
         estimated: s, of the light on the surface, H x W or H x W x 3.
@@ -63,7 +60,7 @@ def shadowed(
         return estimated
     towards = basis(sphere_points(_DIRECTIONS).astype(np.float32), light.order) @ light.coefficients
     least = np.asarray(np.maximum(towards.min(axis=0), floor), np.float32)
-    depth = strength * _depth(estimated, least, shadow, shading, mask, doubt)
+    depth = strength * _depth(estimated, least, shadow, shading, mask)
     if depth == 0:
         return estimated
     rows, columns = _window(shadow)
@@ -87,7 +84,7 @@ def _depth(estimated: Shading, least: FloatArray, shadow: Mask, shading: Shading
     usual = _median(seen / np.maximum(own, 1e-3), lit) if lit.sum() > _ENOUGH * weight.sum() else 1.0
     fall = blocked * np.maximum(own - float(np.mean(least)), 0)
     explained = float((weight * fall * (own - seen / max(usual, 0.2))).sum())
-    possible = float((weight * fall * fall).sum() + doubt * (weight * own * own).sum())
+    possible = float((weight * fall * fall).sum())
     return float(np.clip(explained / max(possible, 1e-9), 0, 1))
 
 

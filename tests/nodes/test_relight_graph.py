@@ -79,11 +79,11 @@ class TestWorkingSize:
         )
         np.testing.assert_array_equal(one, other)
 
-    def test_a_large_photo_is_relit_as_if_at_its_own_size(self, large):
+    @pytest.mark.parametrize("lamp", [{}, {"type": "point", "position": [-1, -1, 2.5], "kelvin": 2500}])
+    def test_a_large_photo_is_relit_as_if_at_its_own_size(self, large, lamp):
         """Nothing that an eye would see is lost, and the picture has the photo's size."""
-        one, other = (
-            relit(large, self.LIGHT, set={"face/working_size.resolution": pixels}).pixels for pixels in (80, None)
-        )
+        light = {**self.LIGHT, "lights": [lamp]} if lamp else self.LIGHT
+        one, other = (relit(large, light, set={"face/working_size.resolution": pixels}).pixels for pixels in (80, None))
         assert one.shape == other.shape
         assert not np.array_equal(one, other)
         assert np.square(one - other).mean() < 1e-4

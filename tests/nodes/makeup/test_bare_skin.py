@@ -50,6 +50,18 @@ class TestBareSkin:
         bare = found(face, np.repeat(skin.mean(axis=2, keepdims=True), 3, axis=2))
         assert (bare.greasepaint, bare.colorful) == (0, 0)
 
+    @pytest.mark.parametrize("shift", [(1, 0.97, 1.06), (0.97, 1, 1.1)])
+    def test_a_tinted_photo_is_no_greasepaint(self, face, skin, shift):
+        """A photo of next to no color, tinted, shows pale skin and not a white face."""
+        tinted = np.repeat(skin.mean(axis=2, keepdims=True), 3, axis=2) * np.float32(shift)
+        assert found(face, tinted).greasepaint == 0
+
+    def test_dark_skin_in_warm_light_is_no_greasepaint(self, face, skin):
+        """Its chroma in CIE Lab is 52; no makeup is so near the hue of skin."""
+        light = skin.mean(axis=2, keepdims=True) / skin.mean()
+        bare = found(face, np.float32([0.83, 0.45, 0.2]) * light * face.everywhere[..., None])
+        assert bare.greasepaint == 0
+
     def test_no_skin(self, face, skin):
         """Without skin the field is a constant, with a warning."""
         labels = Segmentation(face.nowhere, face.everywhere, face.nowhere)

@@ -45,6 +45,21 @@ class TestPaint:
         assert 0 < layer.opacity[cheek].mean() < 0.3
         assert layer.departure[cheek][:, 1].mean() < layer.departure[cheek][:, 0].mean() - 0.03
 
+    def test_shadows_of_another_color(self, face, bare):
+        """What departs from a face that is lit in several colors is no paint unless it departs by much more."""
+        pixels = bare.color.copy()
+        pixels[face.disc(0.2)] *= np.float32([0.8, 0.7, 0.6])
+        cheek = face.disc(0.08)
+        amounts = []
+        for deviation in (0.02, 0.1, 0.2):
+            uneven = BareSkin(bare.color, deviation, 0.0, 1.0)
+            amounts.append(float(np.abs(layer_of(face, uneven, pixels).departure[cheek]).mean()))
+        assert amounts[0] > 0.05
+        assert amounts == sorted(amounts, reverse=True)
+        assert amounts[-1] < 0.01
+        pixels[face.disc(0.2)] = (0.2, 0.3, 0.8)
+        assert layer_of(face, BareSkin(bare.color, 0.1, 0.0, 1.0), pixels).opacity[cheek].min() > 0.9
+
     def test_brows_are_no_paint(self, face, bare):
         """Hair of the brows is left out unless it is asked for."""
         pixels = bare.color.copy()

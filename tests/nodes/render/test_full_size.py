@@ -26,7 +26,7 @@ class TestFullSize:
     def test_says_what_is_missing(self):
         """Nothing, or only the pictures, of a smaller size."""
         small = Image(np.zeros((4, 4, 3), np.float32))
-        with pytest.raises(UsageError, match="before and after"):
+        with pytest.raises(UsageError, match="working, relit, landmarks"):
             full_size(PHOTO, LIT)
-        with pytest.raises(UsageError, match="made of"):
+        with pytest.raises(UsageError, match="lacks landmarks, albedo"):
             full_size(PHOTO, LIT, small, small)

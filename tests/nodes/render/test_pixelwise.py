@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from inspect import signature
+
 import numpy as np
 import pytest
 
 from graphface.nodes.detail.split import split
 from graphface.nodes.intrinsic.intensity import intensity
+from graphface.nodes.matting.guided import guided
+from graphface.nodes.render import pixelwise
 from graphface.nodes.render.composite import composite
 from graphface.nodes.render.pixelwise import Layers, Pixelwise
 from graphface.nodes.render.relit import relit
@@ -76,3 +80,19 @@ def test_the_same_light_is_the_photo(rng):
     large = rng.random((50, 70, 3), np.float32)
     found = Pixelwise(still).at((50, 70)).rows(slice(0, 50), large)
     np.testing.assert_allclose(found, large, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("operator", "names", "values"),
+    [
+        (intensity, ("floor",), (pixelwise._FLOOR,)),
+        (split, ("floor", "bound"), (pixelwise._DETAIL_FLOOR, pixelwise._BOUND)),
+        (response, ("floor", "rougher"), (pixelwise._RESPONSE_FLOOR, pixelwise._ROUGHER)),
+        (relit, ("shoulder", "toe"), (pixelwise._SHOULDER, pixelwise._TOE)),
+        (guided, ("radius", "ridge", "resolution"), (pixelwise._RADIUS, pixelwise._RIDGE, pixelwise._RESOLUTION)),
+    ],
+)
+def test_settings_are_those_of_the_operators(operator, names, values):
+    """A default that is changed in one place alone would make large photos another picture."""
+    defaults = [signature(operator).parameters[name].default for name in names]
+    np.testing.assert_allclose(values, defaults, rtol=1e-6)

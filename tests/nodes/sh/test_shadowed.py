@@ -33,19 +33,13 @@ class TestShadowed:
         """A shadow gets as dark as it is in the photo, whatever the photo's exposure."""
         full, seen = photographed(SIDE, missing)
         for exposure in (0.5, 1, 1.6):
-            found = shadowed(full, SIDE, SHADOW, seen * np.float32(exposure), MASK, doubt=0.0)
+            found = shadowed(full, SIDE, SHADOW, seen * np.float32(exposure), MASK)
             np.testing.assert_allclose(found, seen, atol=0.02)
 
     def test_no_evidence(self):
         """Where the photo is as bright as without a shadow, there is none."""
         full, _ = photographed(SIDE, 0)
         np.testing.assert_allclose(shadowed(full, SIDE, SHADOW, full, MASK), full, atol=1e-6)
-
-    def test_doubt(self):
-        """The more doubt, the less of a weak shadow is believed; never more than without."""
-        full, seen = photographed(SIDE, 0.5)
-        means = [shadowed(full, SIDE, SHADOW, seen, MASK, doubt=d).mean() for d in (0.0, 0.006, 0.05, 1.0)]
-        assert means == sorted(means)
 
     def test_strength_is_continuous(self):
         """From no shadow to all of it in even steps."""
@@ -81,13 +75,12 @@ class TestShadowed:
     @given(
         st.lists(st.floats(-1e6, 1e6, width=32), min_size=4, max_size=4),
         st.sampled_from([0.0, 1.0, np.nan, np.inf, -np.inf, 1e30, -5.0]),
-        st.floats(0, 1),
     )
-    def test_any_light_and_photo(self, coefficients, value, doubt):
+    def test_any_light_and_photo(self, coefficients, value):
         """Negative and huge lights, photos without numbers: finite, and never brighter than the estimate."""
         light = Lighting(np.float32(coefficients))
         full = render(light, NORMALS, floor=0.05)
-        found = shadowed(full, light, SHADOW, np.full_like(full, value), MASK, doubt=doubt)
+        found = shadowed(full, light, SHADOW, np.full_like(full, value), MASK)
         assert np.isfinite(found).all()
         assert (found <= full).all()
 
