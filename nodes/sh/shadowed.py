@@ -71,7 +71,7 @@ def shadowed(
     return found
 
 
-def _depth(estimated: Shading, least: FloatArray, shadow: Mask, shading: Shading, mask: Mask, doubt: float) -> float:
+def _depth(estimated: Shading, least: FloatArray, shadow: Mask, shading: Shading, mask: Mask) -> float:
     """The share of the strongest lamp that the shadow lacks, 0..1."""
     stride = max(1, int(np.sqrt(np.count_nonzero(mask) / _SAMPLES)))
     grid = np.s_[::stride, ::stride]
