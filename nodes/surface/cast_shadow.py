@@ -39,7 +39,7 @@ def cast_shadow(
     """The shadow at the photo's size, 0..1, its edges where the photo has them; 0 where there is no surface.
 
     Args:
-        probability: of a shadow, SIZE x SIZE. free: 0 on hair, 1 off it, SIZE x SIZE.
+        probability: of a shadow, SIZE x SIZE. free: 1 where one may be, 0 on hair, SIZE x SIZE.
     """
     import cv2
 

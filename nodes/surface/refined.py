@@ -62,7 +62,7 @@ def refined(
 
     Returns:
         `surface` has unit normals within the crop about the face (1.1 inter-ocular distances to each side of it), as
-        they were beyond; its depth, coverage and triangles stay. `shadow` is 0 beyond the crop. A face that is not
+        they were beyond; its depth, coverage and triangles stay. `shadow` is 0 off the face. A face that is not
         there, or a speck, keeps its normals and has no shadow, with a warning.
     """
     crop = face_crop(landmarks)
@@ -77,7 +77,9 @@ def refined(
     change = np.float32(strength) * _fine(change, seen, finer_than)
     free = np.ones_like(shadow) if labels is None else off_hair(crop.sampled(labels.hair))
     change *= free[..., None]
-    cast = cast_shadow(crop, shadow, free, photo, landmarks, surface.coverage)
+    # Under the chin the gap of a collar is black in any light, and a lit neck would show it as a ragged line.
+    on_face = free * crop.sampled(mask)
+    cast = cast_shadow(crop, shadow, on_face, photo, landmarks, surface.coverage)
     return RefinedSurface(replace(surface, normals=_changed(surface, crop, change)), cast)
 
 
