@@ -24,10 +24,6 @@ _ENOUGH = 0.05
 
 _SAMPLES = 1 << 15
 
-_DOUBT = 0.003
-"""Ridge of the depth, a share of the face's light: a speck of shadow says little. (Squared error of Yale faces lit from
-the side with 0, 0.003 and 0.012: 0.0114, 0.0116, 0.0122; two path-traced heads 24.06, 24.08, 24.07 dB.)"""
-
 
 @node("sh.shadowed")
 def shadowed(
@@ -45,7 +41,7 @@ def shadowed(
     s' = s - d m (s - s_min), with the least irradiance s_min that the light gives in any direction: what is left
     without its strongest side. The depth d is measured: the shadow is real as far as it explains the photo's shading,
 
-        d = argmin_{0 <= d <= 1} sum_x w(x) (t(x) / a - s(x) + d m(x) (s(x) - s_min))^2 + ridge d^2
+        d = argmin_{0 <= d <= 1} sum_x w(x) (t(x) / a - s(x) + d m(x) (s(x) - s_min))^2
 
     with a, the median of t / s where no shadow is. What only looks like a shadow has no depth.
 
@@ -88,7 +84,7 @@ def _depth(estimated: Shading, least: FloatArray, shadow: Mask, shading: Shading
     usual = _median(seen / np.maximum(own, 1e-3), lit) if lit.sum() > _ENOUGH * weight.sum() else 1.0
     fall = blocked * np.maximum(own - float(np.mean(least)), 0)
     explained = float((weight * fall * (own - seen / max(usual, 0.2))).sum())
-    possible = float((weight * (fall * fall + _DOUBT * own * own)).sum())
+    possible = float((weight * fall * fall).sum())
     return float(np.clip(explained / max(possible, 1e-9), 0, 1))
 
 
